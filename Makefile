@@ -1,0 +1,232 @@
+# The pipeline: published tables -> executables -> generated CSV -> figures and comparison.
+# `make` prints the targets; variables that may be set: PREFIX of outputs (GEN, FIG), CMAKE_FLAGS.
+
+BUILD := build/release
+BIN := $(BUILD)/bin
+GEN ?= data/generated
+FIG ?= figures
+PUB := data/published
+CMAKE_FLAGS ?=
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help deps build all results figures compare test verify bench clean
+.SECONDARY:
+
+help:
+	@echo 'make deps      install the Debian packages that are missing (root or sudo only if there are any)'
+	@echo 'make build     build the executables into $(BIN)'
+	@echo 'make all       results and figures'
+	@echo 'make results   every generated table in $(GEN)'
+	@echo 'make figures   every figure in $(FIG), as PDF and PNG'
+	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
+	@echo 'make test      build and run the tests'
+	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
+	@echo 'make bench     measure speed (Google Benchmark)'
+	@echo 'make clean     remove build/ and what is not committed'
+	@echo 'One file, e.g.: make figures/fig3_pboxes.pdf'
+
+# ---------------------------------------------------------------- packages
+
+PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
+  catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils
+
+deps:
+	@missing=$$(for p in $(PACKAGES); do \
+	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+	if [ -n "$$missing" ]; then \
+	  echo "installing" $$missing; \
+	  if [ "$$(id -u)" = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
+	  $$as_root apt-get update -qq && \
+	  $$as_root DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
+	fi
+
+# ---------------------------------------------------------------- executables
+
+EXPERIMENTS := $(filter-out command_line inputs,$(patsubst experiments/%.cpp,%,$(wildcard experiments/*.cpp)))
+LIBRARY_SOURCES := $(shell find src -name '*.[ch]pp' -o -name CMakeLists.txt) CMakeLists.txt CMakePresets.json \
+  experiments/CMakeLists.txt $(wildcard experiments/*.hpp) experiments/command_line.cpp experiments/inputs.cpp
+EXECUTABLES := $(addprefix $(BIN)/,$(EXPERIMENTS))
+
+build: $(EXECUTABLES)
+
+# One call of CMake builds them all; each executable then depends on its own source and the libraries alone.
+$(BUILD)/.built: $(LIBRARY_SOURCES) $(EXPERIMENTS:%=experiments/%.cpp)
+	cmake --preset release $(CMAKE_FLAGS) >$(BUILD).configure.log 2>&1 || { cat $(BUILD).configure.log; false; }
+	cmake --build --preset release --target experiments
+	@touch $@
+
+$(EXECUTABLES): $(BIN)/%: experiments/%.cpp $(LIBRARY_SOURCES) | $(BUILD)/.built
+	@test -x $@ || cmake --build --preset release --target $*
+	@touch $@
+
+ifneq ($(filter deps,$(MAKECMDGOALS)),)
+$(BUILD)/.built: | deps
+endif
+
+# ---------------------------------------------------------------- results
+
+TABLE1 := $(PUB)/table1_observations.csv
+PRIOR := $(PUB)/table2_prior.csv
+PRINTED := $(addprefix $(PUB)/,table1_observations.csv table2_prior.csv table3_pbox_area.csv table4_iteration_counts.csv)
+STUDY := $(addprefix $(GEN)/sampling_study_,samples.csv runs.csv stages.csv)
+
+RESULTS := $(addprefix $(GEN)/,table1_observations.csv table1_audit.csv fig2_phase_angle.csv \
+  sampling_study_runs.csv sampling_study_stages.csv table3_pbox_area.csv fig3_pboxes.csv fig4_areas_and_iterations.csv \
+  table4_iteration_counts.csv fig5_tempering.csv table5_standard_errors.csv criterion_identity.csv \
+  least_squares_baseline.csv compare_published.csv compare_published.md \
+  replicated_study.csv readings.csv endless_criterion.csv verdicts.csv verdicts.md fig9_null_distributions.csv \
+  fig9_null_distributions_counts.csv fig9_null_distributions_printed.csv)
+RESULTS += $(addprefix $(GEN)/,table1_audit_summary.csv exact_posterior.csv exact_posterior_summary.csv \
+  exact_posterior_samplers.csv exact_posterior_marginals.csv exact_posterior_histograms.csv pbox_floor.csv \
+  pbox_floor_pbox.csv model_validation.csv model_validation_errors.csv model_validation_posterior.csv)
+
+results: $(RESULTS)
+
+$(GEN)/. $(FIG)/.:
+	mkdir -p $@
+
+$(addprefix $(GEN)/,table1_observations.csv table1_audit.csv table1_audit_summary.csv) &: \
+  $(BIN)/table1_observations $(TABLE1) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $(GEN)/table1_observations.csv \
+	  --audit-output $(GEN)/table1_audit.csv --audit-summary-output $(GEN)/table1_audit_summary.csv
+
+$(GEN)/fig2_phase_angle.csv: $(BIN)/fig2_phase_angle | $(GEN)/.
+	$< --quiet --output $@
+
+$(STUDY) &: $(BIN)/sampling_study $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $(GEN)/sampling_study_samples.csv \
+	  --runs-output $(GEN)/sampling_study_runs.csv --stages-output $(GEN)/sampling_study_stages.csv
+
+$(GEN)/table3_pbox_area.csv: $(BIN)/table3_pbox_area $(GEN)/sampling_study_samples.csv
+	$< --input $(GEN)/sampling_study_samples.csv --quiet --output $@
+
+$(GEN)/fig3_pboxes.csv: $(BIN)/fig3_pboxes $(GEN)/sampling_study_samples.csv
+	$< --input $(GEN)/sampling_study_samples.csv --quiet --output $@
+
+$(GEN)/table4_iteration_counts.csv: $(BIN)/table4_iteration_counts $(GEN)/sampling_study_runs.csv
+	$< --input $(GEN)/sampling_study_runs.csv --quiet --output $@
+
+$(GEN)/fig4_areas_and_iterations.csv: $(BIN)/fig4_areas_and_iterations $(GEN)/table3_pbox_area.csv \
+  $(GEN)/table4_iteration_counts.csv $(PUB)/table3_pbox_area.csv $(PUB)/table4_iteration_counts.csv
+	$< --areas $(GEN)/table3_pbox_area.csv --counts $(GEN)/table4_iteration_counts.csv \
+	  --printed-areas $(PUB)/table3_pbox_area.csv --printed-counts $(PUB)/table4_iteration_counts.csv --quiet --output $@
+
+$(GEN)/fig5_tempering.csv: $(BIN)/fig5_tempering $(GEN)/sampling_study_stages.csv
+	$< --input $(GEN)/sampling_study_stages.csv --quiet --output $@
+
+$(GEN)/table5_standard_errors.csv: $(BIN)/table5_standard_errors $(GEN)/sampling_study_samples.csv
+	$< --input $(GEN)/sampling_study_samples.csv --quiet --output $@
+
+$(GEN)/criterion_identity.csv: $(BIN)/criterion_identity $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $@
+
+$(GEN)/least_squares_baseline.csv: $(BIN)/least_squares_baseline $(TABLE1) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $@
+
+EXACT := $(addprefix $(GEN)/exact_posterior,.csv _summary.csv _samplers.csv _marginals.csv _histograms.csv)
+
+$(EXACT) &: $(BIN)/exact_posterior $(TABLE1) $(PRIOR) $(STUDY)
+	$< --observations $(TABLE1) --quiet --output $(GEN)/exact_posterior.csv \
+	  --summary-output $(GEN)/exact_posterior_summary.csv --marginals-output $(GEN)/exact_posterior_marginals.csv \
+	  --runs-input $(GEN)/sampling_study_runs.csv --samplers-output $(GEN)/exact_posterior_samplers.csv \
+	  --samples-input $(GEN)/sampling_study_samples.csv --histogram-output $(GEN)/exact_posterior_histograms.csv
+
+$(GEN)/pbox_floor.csv $(GEN)/pbox_floor_pbox.csv &: $(BIN)/pbox_floor $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $(GEN)/pbox_floor.csv --pbox-output $(GEN)/pbox_floor_pbox.csv
+
+VALIDATION := $(addprefix $(GEN)/model_validation,.csv _errors.csv _posterior.csv)
+
+$(VALIDATION) &: $(BIN)/model_validation $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $(GEN)/model_validation.csv \
+	  --errors-output $(GEN)/model_validation_errors.csv --posterior-output $(GEN)/model_validation_posterior.csv
+
+# Replicated studies: STUDIES of 50 runs of each sampler. A build that was stopped goes on from the journal.
+STUDIES ?= 400
+
+$(GEN)/replicated_study.csv: $(BIN)/replicated_study $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --studies $(STUDIES) --quiet --output $@
+
+$(GEN)/readings.csv: $(BIN)/readings $(PRINTED) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $@
+
+$(GEN)/endless_criterion.csv: $(BIN)/endless_criterion $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $@
+
+$(GEN)/verdicts.csv $(GEN)/verdicts.md &: $(BIN)/verdicts $(GEN)/replicated_study.csv $(PUB)/claims.csv $(PRINTED)
+	$< --observations $(TABLE1) --replicated $(GEN)/replicated_study.csv --claims $(PUB)/claims.csv \
+	  --table3 $(PUB)/table3_pbox_area.csv --table4 $(PUB)/table4_iteration_counts.csv \
+	  --quiet --output $(GEN)/verdicts.csv --markdown-output $(GEN)/verdicts.md
+
+NULL := $(addprefix $(GEN)/fig9_null_distributions,.csv _counts.csv _printed.csv)
+
+$(NULL) &: $(BIN)/fig9_null_distributions $(GEN)/replicated_study.csv $(PRINTED)
+	$< --replicated $(GEN)/replicated_study.csv --table3 $(PUB)/table3_pbox_area.csv \
+	  --table4 $(PUB)/table4_iteration_counts.csv --quiet --output $(GEN)/fig9_null_distributions.csv \
+	  --counts-output $(GEN)/fig9_null_distributions_counts.csv --printed-output $(GEN)/fig9_null_distributions_printed.csv
+
+COMPARED := $(GEN)/replicated_study.csv $(GEN)/table1_observations.csv $(GEN)/table3_pbox_area.csv $(GEN)/table4_iteration_counts.csv
+COMPARE = $(BIN)/compare_published --published $(PUB) --replicated $(GEN)/replicated_study.csv --table1 $(GEN)/table1_observations.csv \
+  --table3 $(GEN)/table3_pbox_area.csv --table4 $(GEN)/table4_iteration_counts.csv
+
+$(GEN)/compare_published.csv $(GEN)/compare_published.md &: $(BIN)/compare_published $(COMPARED) $(PRINTED)
+	$(COMPARE) --quiet --output $(GEN)/compare_published.csv --markdown-output $(GEN)/compare_published.md
+
+compare: $(BIN)/compare_published $(COMPARED) $(PRINTED)
+	@$(COMPARE)
+
+# ---------------------------------------------------------------- figures
+
+FIGURES := fig1_rig fig2_phase_angle fig3_pboxes fig4_areas_and_iterations fig5_tempering \
+  fig6_exact_posterior fig7_pbox_floor fig8_model_validation
+FIGURE_FILES := $(foreach f,$(FIGURES),$(FIG)/$(f).pdf $(FIG)/$(f).png)
+
+figures: $(FIGURE_FILES)
+
+DATA_fig1_rig :=
+DATA_fig2_phase_angle := $(GEN)/fig2_phase_angle.csv $(TABLE1)
+DATA_fig3_pboxes := $(GEN)/fig3_pboxes.csv $(GEN)/least_squares_baseline.csv
+DATA_fig4_areas_and_iterations := $(GEN)/fig4_areas_and_iterations.csv
+DATA_fig5_tempering := $(GEN)/fig5_tempering.csv
+DATA_fig6_exact_posterior := $(addprefix $(GEN)/,exact_posterior_marginals.csv exact_posterior_histograms.csv \
+  least_squares_baseline.csv)
+DATA_fig7_pbox_floor := $(GEN)/pbox_floor_pbox.csv $(GEN)/fig3_pboxes.csv
+DATA_fig8_model_validation := $(GEN)/model_validation.csv $(GEN)/model_validation_errors.csv
+
+define figure_rule
+$(FIG)/$(1).pdf $(FIG)/$(1).png &: figures/$(1).gp figures/style.gp figures/draw $(DATA_$(1)) | $(FIG)/.
+	figures/draw $(1) $(GEN) $(FIG)
+endef
+$(foreach f,$(FIGURES),$(eval $(call figure_rule,$(f))))
+
+# ---------------------------------------------------------------- everything
+
+all: results figures README.md
+
+# The tables in the README are copies of generated ones, between markers that name the file.
+README_TABLES := data/generated/compare_published.md data/generated/verdicts.md
+
+README.md: $(README_TABLES) tools/splice
+	tools/splice $@ $(README_TABLES)
+
+test: $(BUILD)/.built
+	cmake --build --preset release
+	ctest --preset release
+
+verify: build
+	rm -rf build/verify
+	$(MAKE) --no-print-directory GEN=build/verify/data/generated FIG=build/verify/figures results figures
+	@status=0; for f in $(RESULTS) $(FIGURE_FILES); do \
+	  cmp "$$f" "build/verify/$$f" || status=1; done; \
+	if [ $$status = 0 ]; then echo 'verify: all generated files agree with the committed ones'; \
+	else echo 'verify: files differ'; exit 1; fi
+
+bench: $(BUILD)/.built
+	cmake --preset release -DTMCMC_BUILD_BENCHMARKS=ON $(CMAKE_FLAGS) >$(BUILD).configure.log 2>&1
+	cmake --build --preset release --target benchmarks
+	@mkdir -p build/bench
+	$(BIN)/benchmarks --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+	  --benchmark_out=build/bench/benchmarks.json --benchmark_out_format=json
+
+clean:
+	rm -rf build $(GEN)/sampling_study_samples.csv $(GEN)/sampling_study_stages.csv

@@ -1,0 +1,196 @@
+// Tables 1 to 4 as printed beside ours, cell by cell.
+//
+// Table 1: generated observations of the stated truth differ by their noise; r_nom is deterministic. Table 2:
+// the prior of the reading that made the study. Tables 3 and 4: p-box areas and iteration counts of the
+// sampling study.
+
+#include <algorithm>
+#include <cmath>
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+namespace {
+
+constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
+
+struct Cell {
+  std::string table, row, column;
+  double printed, ours;
+  study::Interval95 interval = {missing_value, missing_value};  // of replicated studies
+  double p = missing_value;
+  std::string verdict = {};
+};
+
+/// All numeric cells of a printed table, looked up in ours by key column. Cells that ours lacks count as
+/// `missing`.
+void compare(std::vector<Cell>& cells, const std::string& name, const std::string& key,
+             const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
+             double missing) {
+  const auto printed_keys = printed.text(key);
+  const auto our_keys = ours.text(key);
+  std::vector<std::string> keys = printed_keys;
+  for (const auto& k : our_keys) {
+    if (std::find(keys.begin(), keys.end(), k) == keys.end()) {
+      keys.push_back(k);
+    }
+  }
+  const auto value = [&](const std::vector<double>& numbers, const std::vector<std::string>& in,
+                         const std::string& k) {
+    const auto found = std::find(in.begin(), in.end(), k);
+    return found == in.end() ? missing : numbers[static_cast<std::size_t>(found - in.begin())];
+  };
+  for (const auto& k : keys) {
+    for (const auto& column : columns) {
+      cells.push_back({.table = name,
+                       .row = k,
+                       .column = column,
+                       .printed = value(printed.numbers(column), printed_keys, k),
+                       .ours = value(ours.numbers(column), our_keys, k)});
+    }
+  }
+}
+
+/// Places the cells of Tables 3 and 4 in the distributions of replicated studies. A cell of Table 4 shows its own interval
+/// and the p-value of its column.
+void judge(std::vector<Cell>& cells, const std::vector<study::StudySummary>& studies,
+           const PrintedTables& printed) {
+  const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts);
+  const auto name = [](bool reproduced) { return reproduced ? "reproduced" : "not reproduced"; };
+  for (Cell& cell : cells) {
+    for (const auto& v : verdicts.areas) {
+      if (cell.table == "Table 3" && cell.row == v.sampler && cell.column == parameter_columns[v.parameter]) {
+        cell.interval = v.interval;
+        cell.p = v.p_holm;
+        cell.verdict = name(v.reproduced);
+      }
+    }
+    for (const auto& v : verdicts.counts) {
+      if (cell.table == "Table 4" && cell.column == v.sampler) {
+        std::vector<double> counts;
+        for (const auto& s : study::studies_of(studies, v.sampler)) {
+          const auto found = s.iterations.find(std::stol(cell.row));
+          counts.push_back(found == s.iterations.end() ? 0.0 : static_cast<double>(found->second));
+        }
+        cell.interval = study::central_95(counts);
+        cell.p = v.p_holm;
+        cell.verdict = name(v.reproduced);
+      }
+    }
+  }
+}
+
+std::string blank_if_nan(double value, const char* format) {
+  return std::isnan(value) ? "" : fmt::format(fmt::runtime(format), value);
+}
+
+/// Tables 3 and 4 as they stand in the README.
+std::string markdown(const std::vector<Cell>& cells) {
+  std::string text =
+      "| table | row | column | printed | ours | 95 % of replicated studies | p (Holm) | the printed number "
+      "is |\n"
+      "|---|---|---|---:|---:|---:|---:|---|\n";
+  for (const Cell& cell : cells) {
+    if (cell.table == "Table 3" || cell.table == "Table 4") {
+      text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} to {} | {} | {} |\n", cell.table,
+                          cell.table == "Table 4" ? cell.row + " iterations" : cell.row, cell.column,
+                          cell.printed, cell.ours, blank_if_nan(cell.interval.low, "{:.4g}"),
+                          blank_if_nan(cell.interval.high, "{:.4g}"), blank_if_nan(cell.p, "{:.2g}"),
+                          cell.verdict);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("compare_published", "Tables 1-4 of the paper beside ours, cell by cell.");
+  PhysicsOptions physics;
+  InputFiles inputs;
+  std::string printed_directory = "data/published";
+  std::string table1 = "data/generated/table1_observations.csv";
+  std::string table3 = "data/generated/table3_pbox_area.csv";
+  std::string table4 = "data/generated/table4_iteration_counts.csv";
+  std::string replicated;
+  program.add_output("CSV: table, row, column, printed, ours, difference, low, high, p_holm, verdict");
+  std::string markdown_output;
+  program.add_file_output("--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
+  auto& app = program.app();
+  app.add_option("--published", printed_directory, "Directory of the tables as printed")->type_name("DIR");
+  app.add_option("--table1", table1, "Generated observations")->type_name("CSV");
+  app.add_option("--table3", table3, "Our p-box areas")->type_name("CSV");
+  app.add_option("--table4", table4, "Our iteration counts")->type_name("CSV");
+  app.add_option("--replicated", replicated,
+                 "Studies of replicated_study; without them no intervals and verdicts")
+      ->type_name("CSV");
+  inputs.add_prior_to(app);
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto printed = [&](const std::string& file) {
+      return io::CsvTable::read(printed_directory + "/" + file);
+    };
+    std::vector<Cell> cells;
+    compare(cells, "Table 1", "index", {"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"},
+            printed("table1_observations.csv"), io::CsvTable::read(table1), missing_value);
+    const auto prior = prior_for(inputs, physics.reading());
+    const auto printed_prior = read_prior(printed_directory + "/table2_prior.csv");
+    for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(j);
+      cells.push_back({.table = "Table 2",
+                       .row = parameter_columns[j],
+                       .column = "lower",
+                       .printed = printed_prior.lower()[row],
+                       .ours = prior.lower()[row]});
+      cells.push_back({.table = "Table 2",
+                       .row = parameter_columns[j],
+                       .column = "upper",
+                       .printed = printed_prior.upper()[row],
+                       .ours = prior.upper()[row]});
+    }
+    compare(cells, "Table 3", "sampler", {"friction_force_n", "natural_frequency_hz"},
+            printed("table3_pbox_area.csv"), io::CsvTable::read(table3), missing_value);
+    compare(cells, "Table 4", "iterations", {"TMCMC", "TMCMC-II"}, printed("table4_iteration_counts.csv"),
+            io::CsvTable::read(table4), 0.0);
+    if (!replicated.empty()) {
+      judge(cells, read_studies(replicated),
+            read_printed_tables(printed_directory + "/table3_pbox_area.csv",
+                                printed_directory + "/table4_iteration_counts.csv"));
+    }
+
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(),
+                  std::vector<std::string>{"table", "row", "column", "printed", "ours", "difference", "low",
+                                           "high", "p_holm", "verdict"});
+    }
+    std::string table;
+    for (const Cell& cell : cells) {
+      if (cell.table != table) {
+        table = cell.table;
+        program.report("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12} {:>22} {:>8}  {}\n", table, "row",
+                       "column", "printed", "ours", "difference", "95 % of studies", "p (Holm)",
+                       "printed number");
+      }
+      const std::string interval =
+          std::isnan(cell.p) ? "" : fmt::format("{:.4g} to {:.4g}", cell.interval.low, cell.interval.high);
+      program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g} {:>22} {:>8}  {}\n", cell.row,
+                     cell.column, cell.printed, cell.ours, cell.ours - cell.printed, interval,
+                     blank_if_nan(cell.p, "{:.2g}"), cell.verdict);
+      if (csv) {
+        csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, cell.ours - cell.printed,
+                 cell.interval.low, cell.interval.high, cell.p, cell.verdict);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+    if (!markdown_output.empty()) {
+      io::OutputFile file(markdown_output);
+      file.write(markdown(cells));
+      file.commit();
+    }
+  });
+}

@@ -1,0 +1,59 @@
+// What the published script of TMCMC-II does: it solves N_eff = N in place of Eq. 9's N_eff = N/2. Only equal weights have
+// N_eff = N, so the step of beta is 0, and the sampler never ends; a cap on the stages ends it cleanly. Target fractions
+// close to 1 show how the number of stages grows on the way there.
+//
+// Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("endless_criterion",
+                  "Stages of TMCMC-II as its target N_eff / N goes to 1, where it never ends.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  SamplerOptions sampler;
+  RunOptions run_options;
+  sampler.max_stages = 200;
+  sampler.minimum_step = 0.0;  // a step of 0 is what is to be shown
+  program.add_output("CSV: target_fraction, stages, beta, smallest_step, stop");
+  inputs.add_observations_to(program.app());
+  inputs.add_prior_to(program.app());
+  run_options.add_seed_to(program.app());
+  sampler.add_to(program.app());
+  physics.add_to(program.app());
+
+  return program.run(argc, argv, [&] {
+    study::Reading reading = physics.reading();
+    sampler.apply(reading);
+    const auto problem =
+        study::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(),
+                  std::vector<std::string>{"target_fraction", "stages", "beta", "smallest_step", "stop"});
+    }
+    program.report("At most {} stages, N = {}\n{:>16} {:>8} {:>10} {:>14}  {}\n", reading.sampler.max_stages,
+                   sampler.samples, "N_eff target / N", "stages", "beta", "smallest step", "end");
+    for (const double fraction : {0.5, 0.75, 0.9, 0.95, 0.99, 0.999, 1.0}) {
+      const auto arm = study::paper_arms(reading, sampler.cov_target, fraction)[1];
+      const auto result = tmcmc::run(problem, arm.options, {.seed = run_options.seed, .arm = 1});
+      double smallest = 1.0;
+      for (const auto& stage : result.stages) {
+        smallest = std::min(smallest, stage.step);
+      }
+      const char* stop = result.stop == tmcmc::StopReason::completed     ? "posterior reached"
+                         : result.stop == tmcmc::StopReason::stage_limit ? "stage limit"
+                                                                         : "step too small";
+      program.report("{:>16} {:>8} {:>10.4g} {:>14.3g}  {}\n", fraction, result.stages.size(),
+                     result.final.beta, smallest, stop);
+      if (csv) {
+        csv->row(fraction, result.stages.size(), result.final.beta, smallest, stop);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+  });
+}

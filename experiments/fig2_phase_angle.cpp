@@ -1,0 +1,63 @@
+// Figure 2: phase angle of the response over the frequency ratio (Eq. 21) for a friction force, and along Den
+// Hartog's boundary of continuous motion (Eq. 18), where phi = phi_lim(r). The measurements stand beside it
+// in the figure.
+
+#include <cmath>
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("fig2_phase_angle",
+                  "Phase angle over the frequency ratio, and Den Hartog's boundary (Figure 2).");
+  PhysicsOptions physics;
+  double friction_force = 1.086;
+  double lowest = 0.05;
+  double highest = 2.0;
+  long points = 1951;
+  program.add_output(
+      "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio");
+  auto& app = program.app();
+  app.add_option("--friction-force", friction_force, "F_mu, N")->check(CLI::NonNegativeNumber);
+  app.add_option("--from", lowest, "Smallest frequency ratio")->check(CLI::PositiveNumber);
+  app.add_option("--to", highest, "Largest frequency ratio")->check(CLI::PositiveNumber);
+  app.add_option("--points", points, "Points of the curves")->check(CLI::Range(2L, 1000000L));
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    if (!(lowest < highest)) {
+      throw io::InputError(
+          fmt::format("--to: value '{}': expected a number above --from {}", highest, lowest));
+    }
+    const auto reading = physics.reading();
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(), std::vector<std::string>{"frequency_ratio", "phase_deg",
+                                                             "boundary_phase_deg", "limit_force_ratio"});
+    }
+    double continuous_from = highest;
+    double smallest_limit = std::numeric_limits<double>::infinity();
+    for (long i = 0; i < points; ++i) {
+      const double r = lowest + (highest - lowest) * static_cast<double>(i) / static_cast<double>(points - 1);
+      if (friction::is_singular_ratio(r)) {
+        continue;
+      }
+      const auto c = friction::response_constants(r, reading.physics);
+      const double phase = friction::phase_deg(c, friction_force / reading.physics.driving_force_n);
+      if (!std::isnan(phase) && r < continuous_from) {
+        continuous_from = r;
+      }
+      smallest_limit = std::min(smallest_limit, r >= 0.6 ? c.limit_force_ratio : smallest_limit);
+      if (csv) {
+        csv->row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+    program.report("F_mu = {} N (force ratio {:.4f}): continuous motion from r = {:.3f} on\n", friction_force,
+                   friction_force / reading.physics.driving_force_n, continuous_from);
+    program.report("smallest limit of the force ratio for r >= 0.6: {:.4f}\n", smallest_limit);
+  });
+}

@@ -1,0 +1,57 @@
+// Figure 3: the p-box of the 50 posterior ECDFs, for each sampler and parameter, on a grid of the parameter.
+//
+// Data: the samples that sampling_study writes.
+
+#include <algorithm>
+
+#include "inputs.hpp"
+#include "pbox/pbox.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("fig3_pboxes",
+                  "Bounds of the ECDFs of all runs, for each sampler and parameter (Figure 3).");
+  std::string input = "data/generated/sampling_study_samples.csv";
+  long points = 401;
+  program.add_output("CSV: sampler, parameter, x, lower, upper");
+  program.app()
+      .add_option("--input", input, "Samples: CSV with columns sampler, run and parameters")
+      ->type_name("CSV");
+  program.app()
+      .add_option("--points", points, "Grid points between the smallest and the largest sample")
+      ->check(CLI::Range(2L, 1000000L));
+
+  return program.run(argc, argv, [&] {
+    const auto samples = read_samples(input);
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(), std::vector<std::string>{"sampler", "parameter", "x", "lower", "upper"});
+    }
+    program.report("{:<12} {:<24} {:>12} {:>12} {:>14}\n", "sampler", "parameter", "smallest", "largest",
+                   "area");
+    for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
+      for (std::size_t c = 0; c < samples.columns.size(); ++c) {
+        std::vector<pbox::Ecdf> ecdfs;
+        for (const auto& run : samples.values[s][c]) {
+          ecdfs.emplace_back(run);
+        }
+        const auto box = pbox::envelope(ecdfs);
+        const double low = box.x.front();
+        const double high = box.x.back();
+        program.report("{:<12} {:<24} {:>12.5g} {:>12.5g} {:>14.6g}\n", samples.samplers[s],
+                       samples.columns[c], low, high, pbox::area(box));
+        for (long i = 0; csv && i < points; ++i) {
+          const double x =
+              i == points - 1 ? high
+                              : low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1);
+          const auto bounds = pbox::evaluate(box, x);
+          csv->row(samples.samplers[s], samples.columns[c], x, bounds.lower, bounds.upper);
+        }
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+  });
+}

@@ -1,0 +1,54 @@
+// Figure 5, which the abstract of the paper promises: the evolution of the tempering parameter beta over the
+// stages of every run, by sampler.
+//
+// Data: the stages that sampling_study writes.
+
+#include <algorithm>
+#include <map>
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("fig5_tempering",
+                  "Tempering parameter over the stages of all runs (promised in the abstract).");
+  std::string input = "data/generated/sampling_study_stages.csv";
+  program.add_output("CSV: sampler, run, stage (from 0), beta");
+  program.app()
+      .add_option("--input", input, "Stages: CSV with columns sampler, run, stage, beta")
+      ->type_name("CSV");
+
+  return program.run(argc, argv, [&] {
+    const auto table = io::CsvTable::read(input);
+    const auto samplers = table.text("sampler");
+    const auto runs = table.integers("run");
+    const auto stages = table.integers("stage");
+    const auto betas = table.numbers("beta");
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(), std::vector<std::string>{"sampler", "run", "stage", "beta"});
+    }
+    std::map<std::pair<std::string, long>, std::vector<double>> by_stage;
+    for (std::size_t row = 0; row < betas.size(); ++row) {
+      by_stage[{samplers[row], stages[row]}].push_back(betas[row]);
+      if (csv) {
+        if (stages[row] == 1) {
+          csv->row(samplers[row], runs[row], 0, 0.0);
+        }
+        csv->row(samplers[row], runs[row], stages[row], betas[row]);
+      }
+    }
+    program.report("{:<12} {:>6} {:>6} {:>12} {:>12} {:>12}\n", "sampler", "stage", "runs", "lowest beta",
+                   "median", "highest");
+    for (auto& [key, values] : by_stage) {
+      std::sort(values.begin(), values.end());
+      const std::size_t n = values.size();
+      program.report("{:<12} {:>6} {:>6} {:>12.4g} {:>12.4g} {:>12.4g}\n", key.first, key.second, n,
+                     values.front(), 0.5 * (values[(n - 1) / 2] + values[n / 2]), values.back());
+    }
+    if (csv) {
+      csv->commit();
+    }
+  });
+}

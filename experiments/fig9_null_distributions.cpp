@@ -1,0 +1,100 @@
+// Figures 9 and 10: the distributions that replicated studies give the printed numbers. Areas of the p-boxes as
+// distribution functions over the studies, for both samplers, and their ratio; iteration counts as the number of studies
+// in which so many of the runs took so many iterations.
+//
+// Data: replicated_study.csv; Tables 3 and 4 as printed, for the marks.
+
+#include <algorithm>
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("fig9_null_distributions",
+                  "Distributions of areas and iteration counts over replicated studies.");
+  std::string replicated = "data/generated/replicated_study.csv";
+  std::string table3 = published("table3_pbox_area.csv");
+  std::string table4 = published("table4_iteration_counts.csv");
+  std::string counts_output, printed_output;
+  program.add_output("CSV: sampler, parameter, area, cumulative");
+  program.add_file_output("--counts-output", counts_output,
+                          "CSV: sampler, iterations, runs, share_of_studies, printed");
+  program.add_file_output("--printed-output", printed_output,
+                          "CSV: sampler, parameter, printed, low, high, p");
+  auto& app = program.app();
+  app.add_option("--replicated", replicated, "Studies written by replicated_study")->type_name("CSV");
+  app.add_option("--table3", table3, "Table 3 as printed")->type_name("CSV");
+  app.add_option("--table4", table4, "Table 4 as printed")->type_name("CSV");
+
+  return program.run(argc, argv, [&] {
+    const auto studies = read_studies(replicated);
+    const auto printed = read_printed_tables(table3, table4);
+    const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts);
+    std::optional<io::CsvWriter> csv, counts_csv, printed_csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(), std::vector<std::string>{"sampler", "parameter", "area", "cumulative"});
+    }
+    if (!counts_output.empty()) {
+      counts_csv.emplace(counts_output, std::vector<std::string>{"sampler", "iterations", "runs",
+                                                                 "share_of_studies", "printed"});
+    }
+    if (!printed_output.empty()) {
+      printed_csv.emplace(printed_output,
+                          std::vector<std::string>{"sampler", "parameter", "printed", "low", "high", "p"});
+    }
+    for (const auto& v : verdicts.areas) {
+      const auto& parameter = parameter_columns[v.parameter];
+      program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",
+                     v.sampler, parameter, v.printed, v.median, v.interval.low, v.interval.high, v.p);
+      if (printed_csv) {
+        printed_csv->row(v.sampler, parameter, v.printed, v.interval.low, v.interval.high, v.p);
+      }
+      std::vector<double> areas;
+      for (const auto& s : study::studies_of(studies, v.sampler)) {
+        areas.push_back(s.areas[v.parameter]);
+      }
+      std::sort(areas.begin(), areas.end());
+      for (std::size_t i = 0; csv && i < areas.size(); ++i) {
+        csv->row(v.sampler, parameter, areas[i],
+                 static_cast<double>(i + 1) / static_cast<double>(areas.size()));
+      }
+    }
+    for (const auto& column : printed.counts) {
+      const auto of_sampler = study::studies_of(studies, column.sampler);
+      std::map<std::int64_t, std::map<std::int64_t, double>>
+          shares;  // iterations -> runs -> share of the studies
+      for (const auto& cell : column.counts) {
+        shares[cell.first];
+      }
+      for (const auto& s : of_sampler) {
+        for (const auto& cell : s.iterations) {
+          shares[cell.first];
+        }
+      }
+      for (auto& [iterations, by_runs] : shares) {
+        for (const auto& s : of_sampler) {
+          const auto found = s.iterations.find(iterations);
+          by_runs[found == s.iterations.end() ? 0 : found->second] +=
+              1.0 / static_cast<double>(of_sampler.size());
+        }
+        const auto mark = column.counts.find(iterations);
+        for (const auto& [runs, share] : by_runs) {
+          if (counts_csv) {
+            counts_csv->row(column.sampler, iterations, runs, share,
+                            mark == column.counts.end() ? 0 : mark->second);
+          }
+        }
+      }
+    }
+    for (const auto& v : verdicts.counts) {
+      program.report("{:<10} Table 4: deviance {:.3g}, 95 % of studies below {:.3g}, p = {:.3g}\n", v.sampler,
+                     v.statistic, v.critical, v.p);
+    }
+    for (auto* file : {&csv, &counts_csv, &printed_csv}) {
+      if (*file) {
+        (*file)->commit();
+      }
+    }
+  });
+}

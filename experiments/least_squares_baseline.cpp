@@ -1,0 +1,92 @@
+// The deterministic baseline: least squares with Ceres, of the phase angles in the friction force and of the nominal
+// frequency ratios in the natural frequency, with maximum-likelihood noise levels. What the samplers' posteriors stand
+// beside in Figure 3.
+//
+// Data: Table 1 as printed, or the reader's own measurements.
+
+#include <cmath>
+
+#include "estimation/least_squares.hpp"
+#include "inputs.hpp"
+
+using namespace experiments;
+
+namespace {
+
+void report(const Program& program, const char* name, const char* unit, const estimation::BlockFit& fit) {
+  program.report("{} = {:.6g} {} +- {:.3g} (noise as given, {:.4g}) +- {:.3g} (noise as fitted, {:.4g})\n",
+                 name, fit.estimate, unit, fit.standard_error, fit.noise_given, fit.standard_error_ml,
+                 fit.noise_ml);
+  program.report(
+      "  chi^2 = {:.3f} on {} observations, reduced {:.3f}; {} iterations; {} of {} starts agree, {} {}{}\n",
+      fit.chi_squared, fit.residuals.size(), fit.reduced_chi_squared, fit.iterations, fit.agreed, fit.starts,
+      fit.distinct_minima, fit.distinct_minima == 1 ? "minimum" : "local minima",
+      fit.at_bound ? "; AT A BOUND" : "");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("least_squares_baseline",
+                  "Ceres least-squares fit of friction force and natural frequency.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  estimation::LeastSquaresOptions options;
+  std::string residuals_output;
+  program.add_output("CSV: one row a parameter with estimate, standard errors, chi^2 and how the fit went");
+  program.add_file_output("--residuals-output", residuals_output,
+                          "CSV of the residuals, one row an observation");
+  auto& app = program.app();
+  inputs.add_observations_to(app);
+  app.add_option("--phase-noise", options.phase_noise_deg, "sigma of the phase angle, deg")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--frequency-ratio-noise", options.frequency_ratio_noise, "sigma of the frequency ratio")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--starts", options.starts, "Starting points")->check(CLI::Range(1, 1000));
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto reading = physics.reading();
+    const auto observations = read_observations(inputs.observations);
+    std::optional<io::CsvWriter> csv, residuals;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(),
+                  std::vector<std::string>{"parameter", "estimate", "standard_error", "standard_error_ml",
+                                           "sigma_given", "chi_squared", "reduced_chi_squared", "iterations",
+                                           "starts", "agreed", "distinct_minima", "at_bound"});
+    }
+    if (!residuals_output.empty()) {
+      residuals.emplace(residuals_output,
+                        std::vector<std::string>{"index", "phase_residual_deg", "frequency_ratio_residual"});
+    }
+    const auto fit = estimation::fit_least_squares(observations, reading.physics, options);
+    report(program, "F_mu", "N", fit.friction_force);
+    report(program, "omega_n", "Hz", fit.natural_frequency);
+    program.report("largest log-likelihood {:.4f}\n", fit.log_likelihood());
+    const double n = static_cast<double>(observations.size());
+    const auto write = [&](const std::string& location, const std::string& noise,
+                           const estimation::BlockFit& block) {
+      csv->row(location, digits(block.estimate), digits(block.standard_error),
+               digits(block.standard_error_ml), block.noise_given, digits(block.chi_squared),
+               digits(block.reduced_chi_squared), block.iterations, block.starts, block.agreed,
+               block.distinct_minima, block.at_bound ? 1 : 0);
+      // Fisher information of a Normal standard deviation: 2 n / sigma^2.
+      csv->row(noise, digits(block.noise_ml), digits(block.noise_given / std::sqrt(2.0 * n)),
+               digits(block.noise_ml / std::sqrt(2.0 * n)), block.noise_given, digits(block.chi_squared),
+               digits(block.reduced_chi_squared), block.iterations, block.starts, block.agreed,
+               block.distinct_minima, block.at_bound ? 1 : 0);
+    };
+    if (csv) {
+      write(parameter_columns[0], parameter_columns[2], fit.friction_force);
+      write(parameter_columns[1], parameter_columns[3], fit.natural_frequency);
+      csv->commit();
+    }
+    if (residuals) {
+      for (std::size_t i = 0; i < observations.size(); ++i) {
+        residuals->row(i + 1, digits(fit.friction_force.residuals[i]),
+                       digits(fit.natural_frequency.residuals[i]));
+      }
+      residuals->commit();
+    }
+  });
+}

@@ -1,0 +1,125 @@
+// The floor of the p-box area (Table 3, Eq. 25): what the area would be if the runs were independent exact draws from the
+// posterior, K studies of R sets of N draws each. What a sampler's area has beyond it measures how its chains mix.
+//
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+
+#include <algorithm>
+#include <cmath>
+
+#include "inputs.hpp"
+#include "pbox/pbox.hpp"
+#include "study/verdict.hpp"
+#include "tmcmc/parallel.hpp"
+
+using namespace experiments;
+
+namespace {
+
+using Ecdfs = std::array<std::vector<pbox::Ecdf>, friction::parameter_count>;
+
+/// R sets of N independent exact draws. Stage 1 keeps them apart from the noise of synthetic observations, stage 0.
+Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study,
+                 long runs, long samples) {
+  Ecdfs ecdfs;
+  for (long run = 0; run < runs; ++run) {
+    std::array<std::vector<double>, friction::parameter_count> columns;
+    for (long row = 0; row < samples; ++row) {
+      const auto words = tmcmc::random_words(
+          {.seed = seed, .study = study, .run = static_cast<std::uint32_t>(run)},
+          {.purpose = tmcmc::Purpose::data, .stage = 1, .row = static_cast<std::uint64_t>(row)});
+      std::array<double, friction::parameter_count> uniforms{};
+      std::transform(words.begin(), words.end(), uniforms.begin(), tmcmc::uniform_open);
+      const auto point = posterior.draw(uniforms);
+      for (std::size_t p = 0; p < point.size(); ++p) {
+        columns[p].push_back(point[p]);
+      }
+    }
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+      ecdfs[p].emplace_back(std::move(columns[p]));
+    }
+  }
+  return ecdfs;
+}
+
+void write_pboxes(io::CsvWriter& csv, const Ecdfs& ecdfs, long points) {
+  for (std::size_t p = 0; p < ecdfs.size(); ++p) {
+    const auto box = pbox::envelope(ecdfs[p]);
+    const double low = box.x.front();
+    const double high = box.x.back();
+    for (long i = 0; i < points; ++i) {
+      const double x = i == points - 1
+                           ? high
+                           : low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1);
+      const auto bounds = pbox::evaluate(box, x);
+      csv.row("exact draws", parameter_columns[p], x, bounds.lower, bounds.upper);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("pbox_floor",
+                  "P-box areas (Eq. 25) of independent exact draws: the floor below any sampler's.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  RunOptions run_options;
+  long samples = 1000, studies = 100, points = 401;
+  std::string pbox_output;
+  program.add_output("CSV of the areas: study and one column a parameter");
+  program.add_file_output("--pbox-output", pbox_output,
+                          "CSV of the p-boxes of study 0, in the columns of fig3_pboxes");
+  auto& app = program.app();
+  app.add_option("--samples", samples, "N, draws a run")->check(CLI::Range(2L, 1000000000L));
+  app.add_option("--studies", studies, "K, studies")->check(CLI::Range(1L, 1000000000L));
+  app.add_option("--points", points, "Grid points of each p-box")->check(CLI::Range(2L, 1000000L));
+  run_options.add_to(app);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto reading = physics.reading();
+    const auto observations = read_observations(inputs.observations);
+    const auto prior = prior_for(inputs, reading);
+    const auto options = run_options.study_options();
+    const auto posterior =
+        exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior);
+    std::vector<std::string> columns = {"study"};
+    columns.insert(columns.end(), parameter_columns.begin(), parameter_columns.end());
+    auto csv = open_csv(program.output(), columns);
+    auto pbox_csv = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper"});
+    std::vector<std::vector<double>> areas(parameter_columns.size(),
+                                           std::vector<double>(static_cast<std::size_t>(studies)));
+    io::Progress progress("pbox_floor", static_cast<std::size_t>(studies), !program.quiet());
+    tmcmc::for_each_block(studies, 1, options.threads, [&](auto, auto begin, auto) {
+      const auto ecdfs =
+          exact_runs(posterior, options.seed, static_cast<std::uint32_t>(begin), run_options.runs, samples);
+      for (std::size_t p = 0; p < ecdfs.size(); ++p) {
+        areas[p][static_cast<std::size_t>(begin)] = pbox::area_metric(ecdfs[p]);
+      }
+      progress.advance();
+    });
+    program.report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n",
+                   run_options.runs, samples, studies, options.seed, physics.reading_name);
+    program.report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
+    for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
+      auto sorted = areas[p];
+      std::sort(sorted.begin(), sorted.end());
+      program.report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p],
+                     study::sample_quantile(sorted, 0.5), study::sample_quantile(sorted, 0.025),
+                     study::sample_quantile(sorted, 0.975));
+    }
+    for (std::size_t k = 0; csv && k < areas[0].size(); ++k) {
+      csv->row(k, areas[0][k], areas[1][k], areas[2][k], areas[3][k]);
+    }
+    if (pbox_csv) {
+      write_pboxes(*pbox_csv, exact_runs(posterior, options.seed, 0, run_options.runs, samples), points);
+    }
+    for (auto* output : {&csv, &pbox_csv}) {
+      if (*output) {
+        (*output)->commit();
+      }
+    }
+  });
+}

@@ -1,0 +1,157 @@
+// The whole study of the paper (50 runs of TMCMC and of TMCMC-II) many times over: the null distribution that every
+// printed number is judged by. Rows are kept as they come: a process that was killed goes on where it stopped, and ends
+// with the same bytes. Shards (--first-study) concatenate to the file of one process.
+//
+// Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
+
+#include "inputs.hpp"
+#include "io/journal.hpp"
+#include "study/replication.hpp"
+
+using namespace experiments;
+
+namespace {
+
+std::string header() {
+  std::string text = "study,sampler";
+  for (const char* quantity : {"area_", "mean_", "standard_error_", "smallest_", "largest_"}) {
+    for (const auto& name : parameter_columns) {
+      text += fmt::format(",{}{}", quantity, name);
+    }
+  }
+  return text + ",log_evidence_mean,log_evidence_sd,iterations";
+}
+
+std::string row(const study::StudySummary& s) {
+  std::string text = fmt::format("{},{}", s.study, s.sampler);
+  for (const auto* values : {&s.areas, &s.means, &s.standard_errors, &s.smallest, &s.largest}) {
+    for (const double value : *values) {
+      text += fmt::format(",{}", io::format_number(value));
+    }
+  }
+  return text + fmt::format(",{},{},{}", io::format_number(s.log_evidence_mean),
+                            io::format_number(s.log_evidence_sd), study::format_iterations(s.iterations));
+}
+
+/// Everything that the rows depend on, in one line.
+std::string key(const study::Reading& reading, const std::vector<study::Arm>& arms,
+                const study::StudyOptions& options, long first_study, const friction::Observations& o,
+                const tmcmc::BoxPrior& prior) {
+  std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", COMPANION_VERSION,
+                                 first_study, options.runs, options.seed);
+  for (const auto& arm : arms) {
+    const auto& s = arm.options;
+    text += fmt::format(" | {} {} {} {} {} {} {} {} {} {} {} {} {}", arm.name, s.samples,
+                        static_cast<int>(s.criterion.kind), s.criterion.target,
+                        static_cast<int>(s.criterion.deviation), static_cast<int>(s.criterion.counted),
+                        static_cast<int>(s.move), s.move_steps, s.proposal_scale, static_cast<int>(s.centre),
+                        static_cast<int>(s.boundary), s.max_stages, s.minimum_step);
+  }
+  text +=
+      fmt::format(" | {} {} {} {}", reading.physics.driving_force_n, static_cast<int>(reading.physics.limit),
+                  static_cast<int>(reading.physics.phase), reading.infeasible_log_likelihood);
+  for (const auto* column : {&o.nominal_ratio, &o.measured_ratio, &o.driving_frequency_hz, &o.phase_deg}) {
+    text += fmt::format(" | {}", fmt::join(*column, " "));
+  }
+  for (Eigen::Index j = 0; j < prior.dimension(); ++j) {
+    text += fmt::format(" | {} {}", prior.lower()[j], prior.upper()[j]);
+  }
+  return text;
+}
+
+void report_column(const Program& program, const std::vector<std::string>& rows, std::size_t column,
+                   const std::string& name, const std::vector<study::Arm>& arms) {
+  for (const auto& arm : arms) {
+    std::vector<double> values;
+    for (const auto& text : rows) {
+      const auto cells = CLI::detail::split(text, ',');
+      if (cells[1] == arm.name) {
+        values.push_back(std::stod(cells[column]));
+      }
+    }
+    std::sort(values.begin(), values.end());
+    const auto quantile = [&](double p) {
+      return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5)];
+    };
+    program.report("  {:<28} {:<10} {:>12.5g} {:>12.5g} {:>12.5g}\n", name, arm.name, quantile(0.5),
+                   quantile(0.025), quantile(0.975));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program(
+      "replicated_study",
+      "Repeats the whole study (R runs of each sampler) many times: distributions of the p-box areas,\n"
+      "iteration counts and standard errors. Resumes from OUTPUT.journal where it was killed.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  SamplerOptions sampler;
+  RunOptions run_options;
+  long studies = 400;
+  long first_study = 0;
+  program.add_output(
+      "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");
+  auto& app = program.app();
+  app.add_option("--studies", studies, "Number of studies, of both samplers each")
+      ->check(CLI::Range(1L, 100000000L));
+  app.add_option("--first-study", first_study, "Number of the first study, for sharing the work")
+      ->check(CLI::Range(0L, 1000000000L));
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_to(app);
+  sampler.add_to(app);
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    study::Reading reading = physics.reading();
+    sampler.apply(reading);
+    const auto observations = read_observations(inputs.observations);
+    const auto prior = prior_for(inputs, reading);
+    const auto problem = study::problem(reading, observations, prior);
+    const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
+    auto options = run_options.study_options();
+
+    std::optional<io::Journal> journal;
+    std::vector<std::string> rows;
+    if (!program.output().empty() && program.output() != "-") {
+      journal.emplace(program.output(), key(reading, arms, options, first_study, observations, prior));
+      rows = journal->rows();
+      rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
+      journal->truncate(rows.size());
+      if (!rows.empty()) {
+        program.report("{} studies were done before\n", rows.size() / arms.size());
+      }
+    }
+    const auto done = static_cast<long>(rows.size() / arms.size());
+    io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
+    for (long i = done; i < studies; ++i) {
+      options.study = static_cast<std::uint32_t>(first_study + i);
+      std::vector<std::string> added;
+      for (const auto& summary : study::run_study(problem, arms, options)) {
+        added.push_back(row(summary));
+      }
+      if (journal) {
+        journal->append(added);
+      }
+      rows.insert(rows.end(), added.begin(), added.end());
+      progress.advance();
+    }
+    if (journal) {
+      journal->finish(first_study == 0 ? header() : "");
+    } else if (program.output() == "-") {
+      io::OutputFile file("-");
+      file.write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
+                             fmt::join(rows, "\n")));
+      file.commit();
+    }
+    program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
+                   physics.reading_name);
+    program.report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
+    report_column(program, rows, 2, "p-box area, F_mu, N", arms);
+    report_column(program, rows, 3, "p-box area, omega_n, Hz", arms);
+    report_column(program, rows, 10, "standard error, F_mu, N", arms);
+    report_column(program, rows, 22, "log-evidence", arms);
+  });
+}

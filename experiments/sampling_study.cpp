@@ -1,0 +1,134 @@
+// The sampling study behind Tables 3 and 4 and Figures 3 to 5: R runs (50) of TMCMC and of TMCMC-II with N
+// samples (1000) each, for the posterior of friction force, natural frequency and the two noise levels (Eqs.
+// 1-9, 24).
+//
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+namespace {
+
+void report_arm(const Program& program, const study::Arm& arm, const std::vector<study::Run>& runs) {
+  const Eigen::VectorXd areas = study::pbox_areas(runs);
+  std::vector<double> evidence;
+  tmcmc::Index evaluations = 0;
+  for (const auto& run : runs) {
+    evidence.push_back(run.result.final.log_evidence);
+    evaluations += run.result.final.evaluations;
+  }
+  const auto log_evidence = study::moments(evidence);
+  program.report("\n{}: log-evidence {:.3f} (sd over runs {:.3f}), {:.0f} likelihood evaluations a run\n",
+                 arm.name, log_evidence.mean, log_evidence.standard_deviation,
+                 static_cast<double>(evaluations) / static_cast<double>(runs.size()));
+  program.report("  {:<22} {:>12} {:>12} {:>14} {:>14}\n", "", "mean", "sd of means", "posterior sd",
+                 "p-box area");
+  for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    std::vector<double> means, sds;
+    for (const auto& run : runs) {
+      means.push_back(run.mean[column]);
+      sds.push_back(run.standard_deviation[column]);
+    }
+    const auto m = study::moments(means);
+    program.report("  {:<22} {:>12.5f} {:>12.5f} {:>14.5f} {:>14.6f}\n", parameter_columns[j], m.mean,
+                   m.standard_deviation, study::moments(sds).mean, areas[column]);
+  }
+  program.report("  iterations:");
+  for (const auto& [iterations, count] : study::iteration_counts(runs)) {
+    program.report("  {} in {} runs", iterations, count);
+  }
+  program.report("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program(
+      "sampling_study",
+      "Runs TMCMC (CoV = 100 %, Eq. 6) and TMCMC-II (N_eff = N/2, Eq. 9) on the friction benchmark.\n"
+      "Source of Tables 3-5 and Figures 3-5.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  SamplerOptions sampler;
+  RunOptions run_options;
+  std::string runs_output, stages_output;
+  program.add_output("CSV of all posterior samples: sampler, run and the four parameters");
+  program.add_file_output("--runs-output", runs_output,
+                          "CSV with one row a run: iterations, log-evidence, moments");
+  program.add_file_output("--stages-output", stages_output, "CSV with one row a stage of each run");
+  inputs.add_observations_to(program.app());
+  inputs.add_prior_to(program.app());
+  run_options.add_to(program.app());
+  sampler.add_to(program.app());
+  physics.add_to(program.app());
+
+  return program.run(argc, argv, [&] {
+    study::Reading reading = physics.reading();
+    sampler.apply(reading);
+    const auto observations = read_observations(inputs.observations);
+    const auto problem = study::problem(reading, observations, prior_for(inputs, reading));
+    const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
+    const auto options = run_options.study_options();
+
+    std::vector<std::string> sample_columns = {"sampler", "run"};
+    sample_columns.insert(sample_columns.end(), parameter_columns.begin(), parameter_columns.end());
+    std::vector<std::string> run_columns = {"sampler", "run", "iterations", "log_evidence", "evaluations"};
+    for (const char* moment : {"mean_", "sd_"}) {
+      for (const auto& name : parameter_columns) {
+        run_columns.push_back(moment + name);
+      }
+    }
+    std::optional<io::CsvWriter> samples_csv, runs_csv, stages_csv;
+    if (!program.output().empty()) {
+      samples_csv.emplace(program.output(), sample_columns);
+    }
+    if (!runs_output.empty()) {
+      runs_csv.emplace(runs_output, run_columns);
+    }
+    if (!stages_output.empty()) {
+      stages_csv.emplace(
+          stages_output,
+          std::vector<std::string>{"sampler", "run", "stage", "beta", "step", "effective_sample_size",
+                                   "coefficient_of_variation", "acceptance_rate", "log_evidence_increment",
+                                   "feasible", "distinct_ancestors", "evaluations", "redraws"});
+    }
+
+    program.report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
+                   sampler.samples, options.seed, physics.reading_name, observations.size());
+    io::Progress progress("sampling_study", arms.size() * static_cast<std::size_t>(options.runs),
+                          !program.quiet());
+    std::vector<std::vector<study::Run>> results;
+    for (std::uint32_t a = 0; a < arms.size(); ++a) {
+      results.push_back(study::run_arm(problem, arms[a], a, options, [&] { progress.advance(); }));
+    }
+    for (std::size_t a = 0; a < arms.size(); ++a) {
+      for (std::size_t i = 0; i < results[a].size(); ++i) {
+        const auto& run = results[a][i];
+        const auto& points = run.result.final.points;
+        for (Eigen::Index row = 0; samples_csv && row < points.rows(); ++row) {
+          samples_csv->row(arms[a].name, i, points(row, 0), points(row, 1), points(row, 2), points(row, 3));
+        }
+        if (runs_csv) {
+          runs_csv->row(arms[a].name, i, run.iterations(), run.result.final.log_evidence,
+                        run.result.final.evaluations, tmcmc::as_span(run.mean),
+                        tmcmc::as_span(run.standard_deviation));
+        }
+        for (const auto& s : run.result.stages) {
+          if (stages_csv) {
+            stages_csv->row(arms[a].name, i, s.stage, s.beta, s.step, s.effective_sample_size,
+                            s.coefficient_of_variation, s.acceptance_rate, s.log_evidence_increment,
+                            s.feasible, s.distinct_ancestors, s.evaluations, s.redraws);
+          }
+        }
+      }
+      report_arm(program, arms[a], results[a]);
+    }
+    for (auto* csv : {&samples_csv, &runs_csv, &stages_csv}) {
+      if (*csv) {
+        (*csv)->commit();
+      }
+    }
+  });
+}

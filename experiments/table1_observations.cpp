@@ -1,0 +1,141 @@
+// Table 1: observations with noise (Eqs. 22-23) for any truth, noise levels and seed; and an audit of the printed table:
+// driving frequency against ratio, standardised residuals, chi^2 and likelihood-ratio tests of the stated truth (1.086 N)
+// and of 1.0 N, and confidence intervals of friction force and natural frequency.
+//
+// Data: Table 1 as printed in Lye and Marino (ESREL 2023), or the reader's own measurements, for the audit.
+
+#include <cmath>
+
+#include "inputs.hpp"
+#include "study/audit.hpp"
+
+using namespace experiments;
+
+namespace {
+
+void report_rows(const Program& program, const study::Audit& a, const study::Truth& truth,
+                 double alternative) {
+  program.report("{:>5} {:>20} {:>18} {:>18} {:>18}\n", "row", "omega_b - r omega_n", "(r-r_nom)/sigma",
+                 fmt::format("phase z, {} N", truth.friction_force_n),
+                 fmt::format("phase z, {} N", alternative));
+  for (std::size_t i = 0; i < a.ratio_residual.size(); ++i) {
+    program.report("{:>5} {:>20.5f} {:>18.3f} {:>18.3f} {:>18.3f}\n", i + 1, a.frequency_difference_hz[i],
+                   a.ratio_residual[i], a.phase_residual_truth[i], a.phase_residual_alternative[i]);
+  }
+  program.report("frequency ratio: chi^2 = {:.1f} on {} points, p = {:.2g}\n", a.ratio_chi_squared,
+                 a.ratio_residual.size(), a.ratio_chi_squared_p);
+}
+
+void report_parameter(const Program& program, const char* name, const char* unit,
+                      const study::ParameterAudit& a) {
+  const auto interval = [&](const study::ConfidenceInterval& i) {
+    return fmt::format("[{:.5g}, {:.5g}]{}", i.lower, i.upper,
+                       i.lower_at_bound || i.upper_at_bound ? " up to a bound" : "");
+  };
+  program.report("{} = {:.5g} {} (least squares), chi^2 = {:.1f}, p = {:.2g}\n", name, a.estimate, unit,
+                 a.chi_squared, a.chi_squared_p);
+  program.report("  95 % interval {} with noise {} as stated, {} with noise unknown ({:.4g})\n",
+                 interval(a.noise_known_95), a.noise_stated, interval(a.noise_unknown_95), a.noise_unbiased);
+  for (const auto& t : a.tests) {
+    if (std::isnan(t.chi_squared)) {
+      program.report("  {} {}: the motion is not continuous at every observation\n", t.value, unit);
+    } else {
+      program.report(
+          "  {} {}: chi^2 = {:.1f}, p = {:.2g}; likelihood ratio {:.2f}, p = {:.2g}; noise unknown F = "
+          "{:.2f}, p = {:.2g}\n",
+          t.value, unit, t.chi_squared, t.chi_squared_p, t.likelihood_ratio, t.likelihood_ratio_p,
+          t.f_statistic, t.f_p);
+    }
+  }
+}
+
+/// One row a value: the least-squares estimate with its intervals, and each value that was tested.
+void write_parameter(io::CsvWriter& csv, const std::string& parameter,
+                     const std::vector<std::string>& hypotheses, const study::ParameterAudit& a) {
+  csv.row(parameter, "least squares", digits(a.estimate, 8), a.noise_stated, digits(a.noise_unbiased, 8),
+          digits(a.chi_squared, 8), digits(a.chi_squared_p, 4), 0, "nan", 0, "nan",
+          digits(a.noise_known_95.lower, 8), digits(a.noise_known_95.upper, 8),
+          digits(a.noise_unknown_95.lower, 8), digits(a.noise_unknown_95.upper, 8));
+  for (std::size_t i = 0; i < a.tests.size(); ++i) {
+    const auto& t = a.tests[i];
+    csv.row(parameter, hypotheses[i], t.value, a.noise_stated, digits(a.noise_unbiased, 8),
+            digits(t.chi_squared, 8), digits(t.chi_squared_p, 4), digits(t.likelihood_ratio, 8),
+            digits(t.likelihood_ratio_p, 4), digits(t.f_statistic, 8), digits(t.f_p, 4), "nan", "nan", "nan",
+            "nan");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("table1_observations",
+                  "Generates observations with noise (Table 1, Eqs. 22-23) and audits the printed ones.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  RunOptions run_options;
+  study::Truth truth;
+  double alternative = 1.0;
+  std::string audit_output, summary_output;
+  program.add_output("CSV of generated observations, in the columns of table1_observations.csv");
+  program.add_file_output("--audit-output", audit_output, "CSV of the audit, one row an observation");
+  program.add_file_output("--audit-summary-output", summary_output,
+                          "CSV of the audit's statistics: estimates, tests, 95 % intervals");
+  auto& app = program.app();
+  app.add_option("--friction-force", truth.friction_force_n, "True friction force F_mu, N");
+  app.add_option("--natural-frequency", truth.natural_frequency_hz, "True natural frequency omega_n, Hz");
+  app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg");
+  app.add_option("--frequency-ratio-noise", truth.frequency_ratio_noise,
+                 "Standard deviation of the frequency ratio");
+  app.add_option("--alternative", alternative, "Second friction force of the audit, N")
+      ->check(CLI::NonNegativeNumber);
+  run_options.add_seed_to(app);
+  inputs.add_observations_to(app);
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto reading = physics.reading();
+    const bool audited = truth.phase_noise_deg > 0.0 && truth.frequency_ratio_noise > 0.0;
+    if (!audited && !(audit_output.empty() && summary_output.empty())) {
+      throw io::InputError(
+          fmt::format("{}: expected positive noise levels, the residuals are divided by them",
+                      audit_output.empty() ? "--audit-summary-output" : "--audit-output"));
+    }
+    const auto printed = read_observations(inputs.observations);
+    const auto generated =
+        study::generate_observations(truth, study::nominal_ratios(), reading.physics, run_options.seed);
+    auto csv =
+        open_csv(program.output(), {"index", "r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});
+    auto rows = open_csv(audit_output, {"index", "driving_frequency_difference_hz", "ratio_residual",
+                                        "phase_residual_truth", "phase_residual_alternative"});
+    auto summary = open_csv(
+        summary_output, {"parameter", "hypothesis", "value", "noise_stated", "noise_unbiased", "chi_squared",
+                         "chi_squared_p", "likelihood_ratio", "likelihood_ratio_p", "f_statistic", "f_p",
+                         "noise_known_low", "noise_known_high", "noise_unknown_low", "noise_unknown_high"});
+    for (std::size_t i = 0; csv && i < generated.size(); ++i) {
+      csv->row(i + 1, generated.nominal_ratio[i], generated.measured_ratio[i],
+               generated.driving_frequency_hz[i], generated.phase_deg[i]);
+    }
+    if (audited) {
+      const auto a = study::audit(printed, truth, alternative, reading.physics);
+      program.report("Audit of {} (reading {}): truth {} N, {} Hz; noise {} deg, {}\n", inputs.observations,
+                     physics.reading_name, truth.friction_force_n, truth.natural_frequency_hz,
+                     truth.phase_noise_deg, truth.frequency_ratio_noise);
+      report_rows(program, a, truth, alternative);
+      report_parameter(program, "F_mu", "N", a.friction_force);
+      report_parameter(program, "omega_n", "Hz", a.natural_frequency);
+      for (std::size_t i = 0; rows && i < printed.size(); ++i) {
+        rows->row(i + 1, a.frequency_difference_hz[i], a.ratio_residual[i], a.phase_residual_truth[i],
+                  a.phase_residual_alternative[i]);
+      }
+      if (summary) {
+        write_parameter(*summary, parameter_columns[0], {"stated truth", "alternative"}, a.friction_force);
+        write_parameter(*summary, parameter_columns[1], {"stated truth"}, a.natural_frequency);
+      }
+    }
+    for (auto* output : {&csv, &rows, &summary}) {
+      if (*output) {
+        (*output)->commit();
+      }
+    }
+  });
+}

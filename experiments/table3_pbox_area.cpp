@@ -1,0 +1,53 @@
+// Table 3: area of the p-box of the runs' ECDFs (Eq. 25), for each sampler and parameter.
+//
+// Data: the samples that sampling_study writes; any CSV with columns sampler, run and one or more parameters
+// will do, also with unequal numbers of samples a run.
+
+#include "inputs.hpp"
+#include "pbox/pbox.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("table3_pbox_area",
+                  "Area of the p-box of all runs, for each sampler and parameter (Table 3).");
+  std::string input = "data/generated/sampling_study_samples.csv";
+  program.add_output("CSV in the form of table3_pbox_area.csv: sampler and one column a parameter");
+  program.app()
+      .add_option("--input", input, "Samples: CSV with columns sampler, run and parameters")
+      ->type_name("CSV");
+
+  return program.run(argc, argv, [&] {
+    const auto samples = read_samples(input);
+    std::vector<std::string> columns = {"sampler"};
+    columns.insert(columns.end(), samples.columns.begin(), samples.columns.end());
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(), columns);
+    }
+    program.report("Area of the p-box (Eq. 25)\n{:<12}", "sampler");
+    for (const auto& name : samples.columns) {
+      program.report(" {:>22}", name);
+    }
+    program.report("\n");
+    for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
+      std::vector<double> areas;
+      program.report("{:<12}", samples.samplers[s]);
+      for (const auto& runs : samples.values[s]) {
+        std::vector<pbox::Ecdf> ecdfs;
+        for (const auto& run : runs) {
+          ecdfs.emplace_back(run);
+        }
+        areas.push_back(pbox::area_metric(ecdfs));
+        program.report(" {:>22.6g}", areas.back());
+      }
+      program.report("\n");
+      if (csv) {
+        csv->row(samples.samplers[s], areas);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+  });
+}

@@ -1,0 +1,57 @@
+// Table 4: number of runs that needed each number of iterations (tempering stages), by sampler.
+//
+// Data: the runs that sampling_study writes.
+
+#include <algorithm>
+#include <map>
+
+#include "inputs.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("table4_iteration_counts", "How many runs needed how many iterations (Table 4).");
+  std::string input = "data/generated/sampling_study_runs.csv";
+  program.add_output("CSV in the form of table4_iteration_counts.csv: iterations and one column a sampler");
+  program.app().add_option("--input", input, "Runs: CSV with columns sampler, iterations")->type_name("CSV");
+
+  return program.run(argc, argv, [&] {
+    const auto table = io::CsvTable::read(input);
+    const auto samplers = table.text("sampler");
+    const auto iterations = table.integers("iterations");
+    std::vector<std::string> names;
+    std::map<long, std::map<std::string, long>> counts;
+    for (std::size_t row = 0; row < samplers.size(); ++row) {
+      if (std::find(names.begin(), names.end(), samplers[row]) == names.end()) {
+        names.push_back(samplers[row]);
+      }
+      ++counts[iterations[row]][samplers[row]];
+    }
+    std::vector<std::string> columns = {"iterations"};
+    columns.insert(columns.end(), names.begin(), names.end());
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(), columns);
+    }
+    program.report("Runs by number of iterations\n{:<12}", "iterations");
+    for (const auto& name : names) {
+      program.report(" {:>12}", name);
+    }
+    program.report("\n");
+    for (auto& [number, by_sampler] : counts) {
+      std::vector<double> cells;
+      program.report("{:<12}", number);
+      for (const auto& name : names) {
+        cells.push_back(static_cast<double>(by_sampler[name]));
+        program.report(" {:>12}", by_sampler[name]);
+      }
+      program.report("\n");
+      if (csv) {
+        csv->row(number, cells);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+  });
+}

@@ -1,0 +1,195 @@
+// A verdict on every printed number and claim of the paper, with its evidence. Each number of Tables 3 and 4 gets its
+// place in the distribution that replicated studies give it; each claim a statistic. That a number is reproduced and that
+// a claim is supported are two things, and stand in two columns.
+//
+// Data: Tables 3 and 4 and the claims as printed; replicated_study.csv; the exact posterior for C1 and Table 1 for C7.
+
+#include <cmath>
+
+#include "inputs.hpp"
+
+using namespace experiments;
+using study::Verdict;
+
+namespace {
+
+constexpr double area_margin = 0.10;
+constexpr double iteration_margin = 0.02;
+constexpr double stated_friction_force_n = 1.086;  // Section 3 of the paper
+constexpr double stated_natural_frequency_hz = 3.086;
+constexpr double stated_phase_noise_deg = 2.0;
+
+struct Judged {
+  std::string number;  // is the printed number one that comes out again?
+  Verdict claim;
+  std::string evidence;
+};
+
+std::string describe(const study::ContrastVerdict& c, const char* what) {
+  return fmt::format(
+      "printed {} {:.3g}, null 95 % {:.3g} to {:.3g}, p = {:.2g}; replicated ratio of medians {:.3f} "
+      "({:.3f} to {:.3f})",
+      what, c.printed, c.interval.low, c.interval.high, c.p, c.replicated.ratio, c.replicated.interval.low,
+      c.replicated.interval.high);
+}
+
+Judged judge_contrast(const study::ContrastVerdict& c, const char* what) {
+  return {c.p >= study::significance_level ? "reproduced" : "untypical",
+          study::judge_contrast(c.p, c.replicated), describe(c, what)};
+}
+
+/// C1: the share of studies whose p-boxes hold both stated values, and how likely the posterior makes the stated force.
+Judged judge_enclosure(const std::vector<study::StudySummary>& studies, double exceedance) {
+  double enclosing = 0.0;
+  for (const auto& s : studies) {
+    const bool force = s.smallest[0] <= stated_friction_force_n && s.largest[0] >= stated_friction_force_n;
+    const bool frequency =
+        s.smallest[1] <= stated_natural_frequency_hz && s.largest[1] >= stated_natural_frequency_hz;
+    enclosing += force && frequency ? 1.0 : 0.0;
+  }
+  const double share = enclosing / static_cast<double>(studies.size());
+  return {share >= 0.5 ? "reproduced" : "not reproduced",
+          exceedance < 0.025 ? Verdict::not_supported : Verdict::reproduced,
+          fmt::format("the ends of the p-boxes hold both stated values in {:.0f} % of the studies, but the "
+                      "exact posterior "
+                      "gives P(F_mu > {} N) = {:.2g}: the p-box reaches it in its tail alone",
+                      100.0 * share, stated_friction_force_n, exceedance)};
+}
+
+/// C6: does the most frequent number of iterations in Table 4 agree with the text?
+Judged judge_mode(const std::vector<study::PrintedCounts>& printed) {
+  std::string evidence = "Table 4: most runs take";
+  bool eleven = true;
+  for (const auto& column : printed) {
+    const auto mode = std::max_element(column.counts.begin(), column.counts.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    evidence += fmt::format(" {} ({} of {})", mode->first, mode->second, column.sampler);
+    eleven = eleven && mode->first == 11;
+  }
+  return {"not applicable", eleven ? Verdict::reproduced : Verdict::internally_contradictory, evidence};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("verdicts", "A verdict on every printed number and claim, with its evidence.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  RunOptions run_options;
+  std::string replicated = "data/generated/replicated_study.csv";
+  std::string table3 = published("table3_pbox_area.csv");
+  std::string table4 = published("table4_iteration_counts.csv");
+  std::string claims = published("claims.csv");
+  std::string markdown_output;
+  program.add_output("CSV: id, place, claim, number, verdict, evidence");
+  program.add_file_output("--markdown-output", markdown_output, "The verdicts as a Markdown table");
+  auto& app = program.app();
+  app.add_option("--replicated", replicated, "Studies written by replicated_study")->type_name("CSV");
+  app.add_option("--table3", table3, "Table 3 as printed")->type_name("CSV");
+  app.add_option("--table4", table4, "Table 4 as printed")->type_name("CSV");
+  app.add_option("--claims", claims, "Claims: CSV with columns id, place, claim")->type_name("CSV");
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_seed_to(app);
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto reading = physics.reading();
+    const auto claim_table = io::CsvTable::read(claims);
+    const auto ids = claim_table.text("id");
+    const auto places = claim_table.text("place");
+    const auto texts = claim_table.text("claim");
+    const auto studies = read_studies(replicated);
+    const auto printed = read_printed_tables(table3, table4);
+    const auto observations = read_observations(inputs.observations);
+    if (printed.counts.size() != 2 || printed.areas.size() != 4) {
+      throw io::InputError(table4 + ": expected the columns of two samplers, and table 3 two rows");
+    }
+    const std::string& first = printed.counts[0].sampler;
+    const std::string& second = printed.counts[1].sampler;
+    const auto ratio = [&](std::size_t at) {
+      return std::stod(printed.areas[at + 1].printed) / std::stod(printed.areas[at].printed);
+    };
+    const auto force =
+        study::contrast_areas(studies, first, second, 0, ratio(0), area_margin, run_options.seed);
+    const auto frequency =
+        study::contrast_areas(studies, first, second, 1, ratio(2), area_margin, run_options.seed);
+    const auto iterations =
+        study::contrast_iterations(studies, printed.counts[0].counts, printed.counts[1].counts, first, second,
+                                   iteration_margin, run_options.seed);
+
+    const friction::Likelihood likelihood(observations, reading.physics);
+    const auto exact = exact_posterior_for(inputs, likelihood, prior_for(inputs, reading));
+    const double exceedance = exact.marginal(friction::friction_force).exceedance(stated_friction_force_n);
+
+    const auto judge = [&](const std::string& id) -> Judged {
+      if (id == "C1") {
+        return judge_enclosure(studies, exceedance);
+      }
+      if (id == "C2") {
+        return judge_contrast(force, "ratio");
+      }
+      if (id == "C3") {
+        return judge_contrast(frequency, "ratio");
+      }
+      if (id == "C4") {
+        return judge_contrast(iterations, "deviance");
+      }
+      if (id == "C5") {  // a cause of worse mixing must make some quantity worse
+        const bool one_algorithm = force.replicated.equivalent && frequency.replicated.equivalent &&
+                                   iterations.replicated.equivalent;
+        return {"not applicable", one_algorithm ? Verdict::contradicted : Verdict::not_supported,
+                fmt::format(
+                    "replicated medians, second sampler over first: F_mu area {:.3f}, omega_n area {:.3f}, "
+                    "iterations {:.4f}; equivalent within {:.0f} %, {:.0f} % and {:.0f} %: {}",
+                    force.replicated.ratio, frequency.replicated.ratio, iterations.replicated.ratio,
+                    100.0 * area_margin, 100.0 * area_margin, 100.0 * iteration_margin,
+                    one_algorithm ? "yes" : "no")};
+      }
+      if (id == "C6") {
+        return judge_mode(printed.counts);
+      }
+      if (id == "C7") {
+        const double best = exact.marginal(friction::friction_force).mean();
+        const double variance = stated_phase_noise_deg * stated_phase_noise_deg;
+        const double chi2 = likelihood.phase_misfit(stated_friction_force_n) / variance;
+        const double chi2_best = likelihood.phase_misfit(best) / variance;
+        const double critical = 3.841;  // chi^2 with one degree of freedom, 5 %
+        return {"not applicable", chi2 - chi2_best > critical ? Verdict::contradicted : Verdict::reproduced,
+                fmt::format("chi^2 of Table 1 is {:.1f} at {} N and {:.1f} at {:.3f} N, on {} observations",
+                            chi2, stated_friction_force_n, chi2_best, best, observations.size())};
+      }
+      if (id == "C8") {
+        return {"not applicable", Verdict::contradicted,
+                "N_eff = N / (1 + CoV^2): both rules are one equation (criterion_identity)"};
+      }
+      return {"not shown", Verdict::cannot_be_tested,
+              "the paper shows neither; see Figure 5 and Table 5 here"};
+    };
+
+    std::optional<io::CsvWriter> csv;
+    if (!program.output().empty()) {
+      csv.emplace(program.output(),
+                  std::vector<std::string>{"id", "place", "claim", "number", "verdict", "evidence"});
+    }
+    std::string markdown = "| | claim | number | verdict on the claim | evidence |\n|---|---|---|---|---|\n";
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const Judged judged = judge(ids[i]);
+      program.report("{}  {}\n    number: {}; claim: {}\n    {}\n", ids[i], texts[i], judged.number,
+                     name_of(judged.claim), judged.evidence);
+      markdown += fmt::format("| {} | {} | {} | **{}** | {} |\n", ids[i], texts[i], judged.number,
+                              name_of(judged.claim), judged.evidence);
+      if (csv) {
+        csv->row(ids[i], places[i], texts[i], judged.number, name_of(judged.claim), judged.evidence);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+    if (!markdown_output.empty()) {
+      io::OutputFile file(markdown_output);
+      file.write(markdown);
+      file.commit();
+    }
+  });
+}

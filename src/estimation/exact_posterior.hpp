@@ -1,0 +1,92 @@
+/// \file
+/// The posterior of Eq. 24 under independent uniform priors, by quadrature: evidence, marginals and
+/// independent draws without a Markov chain.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "estimation/noise_conditional.hpp"
+#include "estimation/parameter_bounds.hpp"
+#include "estimation/tabulated_density.hpp"
+#include "friction/likelihood.hpp"
+
+namespace estimation {
+
+struct ExactPosteriorOptions {
+  /// Largest estimated error of the evidence and of any marginal probability, as a fraction of the
+  /// evidence; from 1e-14 to 1e-2. It is a requirement, not a goal: the panels are refined to 1e-12 whatever
+  /// it is. What limits the error is rounding in the misfit over sigma^2: about 1e-13 for Table 1 and 1e-9
+  /// for 2000 observations with noise of 1e-3 deg.
+  double relative_tolerance = 1e-8;
+  /// Intervals on which local minima of the misfit are looked for before they are refined; from 16 to 1e6.
+  int scan_intervals = 1024;
+  /// Largest number of panels of one marginal; from 16 to 1e6.
+  int max_panels = 4000;
+
+  /// \throws std::invalid_argument naming field, value and constraint.
+  void validate() const;
+};
+
+/// Exact posterior of (F_mu, omega_n, sigma_phase, sigma_r). It is a product of two densities of a location x
+/// (F_mu or omega_n) and a noise level sigma (sigma_phase or sigma_r), each proportional to
+///
+///     sigma^-n exp(-S(x) / (2 sigma^2))   on the prior box,
+///
+/// S being Likelihood::phase_misfit, where the motion is continuous, or Likelihood::frequency_misfit. The
+/// marginal of x is the integral over sigma at given S (log_noise_integral); the marginal of sigma is the sum
+/// over the quadrature nodes in x. Each is tabulated (TabulatedDensity) on panels that are graded
+/// towards every local minimum of S, and the two must integrate to the same evidence.
+///
+/// Infeasible friction forces have likelihood 0: a penalty of -1e10 instead would add less than any double.
+/// Results do not depend on the C library, except through sqrt, which IEEE 754 fixes.
+/// Const members may be called at the same time.
+class ExactPosterior {
+ public:
+  /// Time: about 1e4 evaluations of the misfit.
+  /// \throws std::invalid_argument for invalid bounds or options; std::domain_error if no friction force
+  ///         inside the bounds is feasible, so that the evidence is 0; IntegrationError, naming the
+  ///         parameter, if relative_tolerance is not met.
+  ExactPosterior(const friction::Likelihood& likelihood, const ParameterBounds& bounds,
+                 const ExactPosteriorOptions& options = {});
+
+  /// log P(D): the likelihood averaged over the normalised prior.
+  [[nodiscard]] double log_evidence() const;
+
+  /// Estimated relative error of the evidence and of marginal probabilities, below relative_tolerance.
+  [[nodiscard]] double relative_error() const;
+
+  /// Marginal posterior, in the unit of the parameter.
+  [[nodiscard]] const TabulatedDensity& marginal(friction::Parameter parameter) const;
+
+  /// Number of local minima of the misfit in F_mu or omega_n within the bounds, ends included.
+  /// \throws std::invalid_argument for a noise level.
+  [[nodiscard]] std::size_t mode_count(friction::Parameter location) const;
+
+  /// The point of the posterior that belongs to four independent uniform numbers in (0, 1), in the order of
+  /// friction::Parameter: F_mu and omega_n by the inverse of their marginal distribution functions,
+  /// sigma_phase and sigma_r by the inverse of the conditional ones. Independent uniforms give independent
+  /// exact draws. The inverses are solved, not interpolated: they err by less than 1e-12 in probability
+  /// beyond relative_error(). Time: about 2 us and one evaluation of each misfit.
+  [[nodiscard]] std::array<double, friction::parameter_count> draw(
+      const std::array<double, friction::parameter_count>& uniforms) const;
+
+ private:
+  struct Pair {
+    std::size_t modes;
+    TabulatedDensity location;
+    TabulatedDensity noise;
+    NoiseConditional conditional;
+  };
+
+  [[nodiscard]] static Pair integrate(const friction::Likelihood& likelihood, const ParameterBounds& bounds,
+                                      const ExactPosteriorOptions& options, friction::Parameter location,
+                                      friction::Parameter noise);
+
+  friction::Likelihood likelihood_;
+  double log_prior_density_;
+  Pair phase_;
+  Pair frequency_;
+};
+
+}  // namespace estimation

@@ -1,0 +1,79 @@
+/// \file
+/// Deterministic baseline: least squares of the phases in F_mu and of the nominal ratios in omega_n.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "friction/observations.hpp"
+#include "friction/response.hpp"
+
+namespace estimation {
+
+struct LeastSquaresOptions {
+  double phase_noise_deg = 2.0;         ///< sigma_phase, deg (Eq. 23); for standard errors and chi^2 only
+  double frequency_ratio_noise = 0.01;  ///< sigma_r (Eq. 22); likewise
+  int starts = 8;                       ///< starting points, equidistant inside the bounds; from 1 to 1000
+  /// Starts whose estimates differ by at most this fraction of the width of the bounds have found the same
+  /// minimum; from 1e-10 to 0.1.
+  double agreement_tolerance = 1e-7;
+  int max_iterations = 200;  ///< of one start, at least 1
+
+  /// \throws std::invalid_argument naming field, value and constraint.
+  void validate() const;
+};
+
+/// One weighted fit of n residuals with one unknown x, in N or Hz; residuals in deg or dimensionless.
+struct BlockFit {
+  double estimate = 0.0;  ///< global minimum among the starts
+  double lower = 0.0;     ///< bounds of x
+  double upper = 0.0;
+  bool at_bound = false;  ///< within agreement_tolerance: the standard errors then mean little
+
+  std::vector<double> residuals;  ///< observed minus model, unweighted
+  double sum_of_squares = 0.0;    ///< SS
+  double noise_given = 0.0;       ///< sigma of the options
+  double noise_ml = 0.0;          ///< sqrt(SS / n), the maximum-likelihood sigma
+  /// Standard error of the estimate from ceres::Covariance (Gauss-Newton, bounds ignored) with noise_given and
+  /// with noise_ml; NaN if the model does not depend on x at the estimate.
+  double standard_error = 0.0;
+  double standard_error_ml = 0.0;
+  double chi_squared = 0.0;          ///< SS / noise_given^2
+  double reduced_chi_squared = 0.0;  ///< chi_squared / (n - 1); NaN for n = 1
+  /// -n/2 (log(2 pi noise_ml^2) + 1), the part of the log-likelihood at its maximum; +inf if SS = 0.
+  double log_likelihood = 0.0;
+
+  int starts = 0;           ///< starts that were run
+  int agreed = 0;           ///< starts that converged to the estimate
+  int failed = 0;           ///< starts that did not converge
+  int distinct_minima = 0;  ///< local minima that the converged starts found, this one included
+  int iterations = 0;       ///< of the start that found the estimate
+  std::string termination;  ///< Ceres' message of that start
+};
+
+struct LeastSquaresFit {
+  BlockFit friction_force;     ///< F_mu, N, and sigma_phase
+  BlockFit natural_frequency;  ///< omega_n, Hz, and sigma_r
+
+  /// Of Eq. 24 at its maximum over all four parameters.
+  [[nodiscard]] double log_likelihood() const {
+    return friction_force.log_likelihood + natural_frequency.log_likelihood;
+  }
+};
+
+/// Minimises, independently and with Ceres (Levenberg-Marquardt, automatic derivatives),
+///
+///     sum_n (phase_n - phase_deg(r_n, F_mu))^2 / sigma_phase^2   over 0 <= F_mu <= limit of continuous motion,
+///     sum_n (r_nom,n - omega_b,n / omega_n)^2 / sigma_r^2        over half the least to twice the largest
+///                                                                omega_b,n / r_nom,n,
+///
+/// the limit being the smallest of the observations and the second interval holding the minimiser for any data.
+/// The estimates do not depend on the noise levels and are accurate to about 1e-9 relative, as far as the
+/// minimum is well conditioned; their last digits depend on the C library. Writes nothing to the streams.
+/// \throws std::invalid_argument for invalid observations, physics or options; std::runtime_error if no start
+///         converges.
+[[nodiscard]] LeastSquaresFit fit_least_squares(const friction::Observations& observations,
+                                                const friction::Physics& physics,
+                                                const LeastSquaresOptions& options = {});
+
+}  // namespace estimation

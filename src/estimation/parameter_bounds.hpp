@@ -1,0 +1,33 @@
+/// \file
+/// Box of independent uniform priors on the four parameters (Table 2 of Lye and Marino 2023).
+#pragma once
+
+#include <array>
+
+#include "friction/likelihood.hpp"
+
+namespace estimation {
+
+struct Interval {
+  double lower = 0.0;
+  double upper = 0.0;
+
+  [[nodiscard]] double width() const { return upper - lower; }
+  [[nodiscard]] bool has_inside(double x) const { return x > lower && x < upper; }
+};
+
+/// One interval a parameter, in the order and the units of friction::Parameter.
+using ParameterBounds = std::array<Interval, friction::parameter_count>;
+
+/// \throws std::invalid_argument naming parameter, value and constraint unless all bounds are finite, lower
+///         is less than upper, the friction force is not negative, and natural frequency and noise levels are
+///         positive.
+void validate(const ParameterBounds& bounds);
+
+/// Logarithm of the volume of the box: minus the log-density of the prior.
+[[nodiscard]] double log_volume(const ParameterBounds& bounds);
+
+/// "friction_force", "natural_frequency", "phase_noise" or "frequency_ratio_noise".
+[[nodiscard]] const char* name_of(friction::Parameter parameter);
+
+}  // namespace estimation

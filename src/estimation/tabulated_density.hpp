@@ -1,0 +1,115 @@
+/// \file
+/// A one-dimensional density that is costly to evaluate, as polynomials on panels: distribution function,
+/// quantiles and moments at the cost of a polynomial.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace estimation {
+
+/// A density that could not be integrated to the tolerance asked for.
+class IntegrationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct TabulationOptions {
+  /// Error of the polynomial that a panel is split for, relative to the largest density on the panel. Where
+  /// rounding in the log-density does not let it be reached, the panel is kept with the error it has.
+  double target = 1e-12;
+  /// Panels on which the density is below e^-cutoff_nats of the largest density are left out.
+  double cutoff_nats = 100.0;
+  /// More panels than that end in IntegrationError.
+  int max_panels = 20000;
+};
+
+/// Normalised density on an interval, given by its logarithm up to a constant.
+///
+/// On every panel the density is interpolated at the 20 nodes of the Gauss-Legendre rule
+/// (boost::math::quadrature::gauss) and integrated as a Legendre series. Panels are halved until the
+/// interpolant meets the density at the ends of the panel and its last coefficients vanish, to
+/// TabulationOptions::target, so that also tail probabilities have a small relative error. Masses are kept as
+/// logarithms. Const members may be called at the same time.
+class TabulatedDensity {
+ public:
+  /// \param name  for messages
+  /// \param log_density  natural logarithm; -inf is allowed, NaN is not
+  /// \param mesh  ascending breakpoints, at least two; narrow modes must be resolved by it (graded_mesh)
+  /// \throws IntegrationError if the density is 0 at every breakpoint, is NaN or +inf somewhere, or needs
+  ///         more than max_panels panels.
+  TabulatedDensity(std::string name, const std::function<double(double)>& log_density,
+                   const std::vector<double>& mesh, const TabulationOptions& options = {});
+
+  [[nodiscard]] double density(double x) const;     ///< in 1/[x]; 0 outside the support
+  [[nodiscard]] double cdf(double x) const;         ///< P(X <= x)
+  [[nodiscard]] double exceedance(double x) const;  ///< P(X > x), not by subtraction from 1
+  /// The x with cdf(x) = p. \throws std::invalid_argument unless 0 <= p <= 1.
+  [[nodiscard]] double quantile(double p) const;
+  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }
+
+  /// Logarithms of cdf and exceedance, and their inverses; the log-probability may be far below -700.
+  [[nodiscard]] double log_cdf(double x) const;
+  [[nodiscard]] double log_exceedance(double x) const;
+  [[nodiscard]] double quantile_of_log_cdf(double log_p) const;
+  [[nodiscard]] double quantile_of_log_exceedance(double log_q) const;
+
+  /// Ends of the support, the part below e^-cutoff_nats left out.
+  [[nodiscard]] double lower() const { return panels_.front().left; }
+  [[nodiscard]] double upper() const { return panels_.back().right; }
+
+  /// Logarithm of the integral of the density as it was given.
+  [[nodiscard]] double log_integral() const { return peak_ + log_total_; }
+  /// Estimated error of that integral and of any probability: the sum over the panels of interpolation error
+  /// times width, as a fraction of the integral.
+  [[nodiscard]] double relative_error() const { return relative_error_; }
+  [[nodiscard]] std::size_t panel_count() const { return panels_.size(); }
+
+  /// Nodes and weights of the composite Gauss rule on the panels, for other integrals over the same variable.
+  [[nodiscard]] const std::vector<double>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
+
+ private:
+  static constexpr std::size_t order = 20;
+  using Values = std::array<double, order>;
+
+  struct Panel {
+    double left;
+    double right;
+    double log_scale;                        // of the largest density on the panel, relative to peak_
+    double error;                            // of the interpolant, relative to the same
+    double log_ratio;                        // log-density at the right end minus that at the left end
+    double total;                            // integral over [-1, 1] at this scale
+    std::array<double, order + 1> density;   // Legendre coefficients, the last one is 0
+    std::array<double, order + 1> integral;  // of the integral from -1
+  };
+  struct Local {
+    double density;
+    double integral;
+  };
+  struct Refinement;
+
+  void finish(const std::vector<Values>& values);
+  [[nodiscard]] static Local evaluate(const Panel& panel, double xi);
+  [[nodiscard]] static double invert(const Panel& panel, double integral);
+  [[nodiscard]] std::size_t first_panel_ending_after(double x) const;
+
+  std::string name_;
+  double peak_ = 0.0;  // largest log-density at a breakpoint
+  std::vector<Panel> panels_;
+  std::vector<double> log_below_;  // mass left of each panel, relative to peak_; one entry more than panels
+  std::vector<double> log_above_;  // mass right of each panel
+  std::vector<double> nodes_;
+  std::vector<double> weights_;
+  double log_total_ = 0.0;
+  double relative_error_ = 0.0;
+  double mean_ = 0.0;
+  double standard_deviation_ = 0.0;
+};
+
+}  // namespace estimation

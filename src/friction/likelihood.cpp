@@ -1,0 +1,114 @@
+#include "friction/likelihood.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "portable_math/multiversion.hpp"
+
+namespace friction {
+
+namespace {
+
+constexpr Eigen::Index chunk = 64;
+using Lanes = std::array<double, chunk>;
+
+/// Adds the squared phase residuals of one observation. Force ratios beyond the limit give values that the
+/// caller does not use; the square root is kept real for them.
+PORTABLE_MATH_MULTIVERSION
+void add_squared_residuals(const ResponseConstants& c, double observed_deg, const Lanes& force_ratio,
+                           Lanes& sum) {
+  const double v_squared = c.v * c.v;
+  for (std::size_t i = 0; i < force_ratio.size(); ++i) {
+    const double phi = force_ratio[i];
+    const double phi_squared = phi * phi;
+    const double phi_x0 = phi * std::sqrt(std::fabs(v_squared - c.u * c.u * phi_squared));
+    const double real = c.a0 + c.a1 * phi_x0 + c.a2 * phi_squared;
+    const double imaginary = c.b1 * phi_x0 + c.b2 * phi_squared;
+    const double phase = portable_math::polar_angle(std::fabs(imaginary), real) * (180.0 / std::numbers::pi);
+    const double residual = observed_deg - phase;
+    sum[i] += residual * residual;
+  }
+}
+
+}  // namespace
+
+Likelihood::Likelihood(const Observations& observations, const Physics& physics,
+                       double infeasible_log_likelihood)
+    : phase_deg_(observations.phase_deg),
+      driving_force_n_(physics.driving_force_n),
+      infeasible_log_likelihood_(infeasible_log_likelihood),
+      limit_force_ratio_(std::numeric_limits<double>::infinity()) {
+  observations.validate();
+  if (!(physics.driving_force_n > 0.0) || !std::isfinite(physics.driving_force_n)) {
+    throw std::invalid_argument("driving_force_n = " + std::to_string(physics.driving_force_n) +
+                                ": expected a positive finite number");
+  }
+  double squares = 0.0;
+  double products = 0.0;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    constants_.push_back(response_constants(observations.measured_ratio[i], physics));
+    limit_force_ratio_ = std::min(limit_force_ratio_, constants_.back().limit_force_ratio);
+    const double omega = observations.driving_frequency_hz[i];
+    squares += omega * omega;
+    products += omega * observations.nominal_ratio[i];
+  }
+  frequency_curvature_ = squares;
+  frequency_best_period_ = products / squares;
+  frequency_minimum_ = 0.0;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const double residual =
+        observations.nominal_ratio[i] - observations.driving_frequency_hz[i] * frequency_best_period_;
+    frequency_minimum_ += residual * residual;
+  }
+}
+
+void Likelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                            Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+  if (points.cols() != parameter_count || log_likelihood.size() != points.rows()) {
+    throw std::invalid_argument("friction::Likelihood: expected n x 4 points and n results");
+  }
+  const double count = static_cast<double>(constants_.size());
+  const double constant = -count * 1.8378770664093453;  // log(2 pi)
+  const double to_ratio = 1.0 / driving_force_n_;
+  for (Eigen::Index begin = 0; begin < points.rows(); begin += chunk) {
+    const Eigen::Index size = std::min(chunk, points.rows() - begin);
+    Lanes phi{};
+    Lanes misfit{};
+    for (Eigen::Index i = 0; i < size; ++i) {
+      phi[static_cast<std::size_t>(i)] = points(begin + i, friction_force) * to_ratio;
+    }
+    for (std::size_t j = 0; j < constants_.size(); ++j) {
+      add_squared_residuals(constants_[j], phase_deg_[j], phi, misfit);
+    }
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const auto lane = static_cast<std::size_t>(i);
+      const double sigma_phase = points(begin + i, phase_noise);
+      const double sigma_ratio = points(begin + i, frequency_ratio_noise);
+      const double period_error = 1.0 / points(begin + i, natural_frequency) - frequency_best_period_;
+      const double frequency = frequency_minimum_ + frequency_curvature_ * period_error * period_error;
+      const double value =
+          constant - count * portable_math::log(sigma_phase * sigma_ratio) -
+          0.5 * (misfit[lane] / (sigma_phase * sigma_phase) + frequency / (sigma_ratio * sigma_ratio));
+      const bool feasible = phi[lane] >= 0.0 && phi[lane] <= limit_force_ratio_;
+      log_likelihood[begin + i] = feasible ? value : infeasible_log_likelihood_;
+    }
+  }
+}
+
+double Likelihood::phase_misfit(double friction_force_n) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < constants_.size(); ++j) {
+    const double residual = phase_deg_[j] - phase_deg(constants_[j], friction_force_n / driving_force_n_);
+    sum += residual * residual;
+  }
+  return sum;
+}
+
+double Likelihood::frequency_misfit(double natural_frequency_hz) const {
+  const double period_error = 1.0 / natural_frequency_hz - frequency_best_period_;
+  return frequency_minimum_ + frequency_curvature_ * period_error * period_error;
+}
+
+}  // namespace friction

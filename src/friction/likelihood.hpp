@@ -1,0 +1,66 @@
+/// \file
+/// Likelihood of friction force, natural frequency and the two noise levels (Eq. 24).
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "friction/observations.hpp"
+#include "friction/response.hpp"
+
+namespace friction {
+
+/// Column of each parameter in a matrix of points.
+enum Parameter : int {
+  friction_force,         ///< F_mu, N
+  natural_frequency,      ///< omega_n, Hz
+  phase_noise,            ///< sigma_phase, deg
+  frequency_ratio_noise,  ///< sigma_r, dimensionless
+  parameter_count
+};
+
+/// Batch log-likelihood of Eq. 24. It factorises into a part of (F_mu, sigma_phase) and one of
+/// (omega_n, sigma_r); sums over the observations that no parameter enters are taken once, at construction.
+/// Calls are const and may run at the same time.
+class Likelihood {
+ public:
+  /// \param infeasible_log_likelihood  value where some observation's motion is not continuous: minus infinity,   
+  ///        or the penalty -1e10 of the published scripts.
+  /// \throws std::invalid_argument for invalid observations or physics.
+  Likelihood(const Observations& observations, const Physics& physics,
+             double infeasible_log_likelihood = -std::numeric_limits<double>::infinity());
+
+  /// Log-likelihood of each point, in natural units (normalised densities).
+  /// \param points  n x 4, one column a parameter in the order of Parameter, noise levels and frequency positive
+  /// \param log_likelihood  n values, overwritten
+  /// \throws std::invalid_argument if the shapes do not fit.
+  void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                  Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
+
+  /// Sum of squared phase residuals, deg^2; NaN where the motion is not continuous.
+  [[nodiscard]] double phase_misfit(double friction_force_n) const;
+
+  /// Sum of squared residuals of the nominal frequency ratio.
+  [[nodiscard]] double frequency_misfit(double natural_frequency_hz) const;
+
+  /// Largest friction force, N, at which the motion is continuous for every observation.
+  [[nodiscard]] double limit_friction_force_n() const { return limit_force_ratio_ * driving_force_n_; }
+
+  [[nodiscard]] std::size_t observation_count() const { return constants_.size(); }
+  [[nodiscard]] double driving_force_n() const { return driving_force_n_; }
+  [[nodiscard]] double infeasible_log_likelihood() const { return infeasible_log_likelihood_; }
+
+ private:
+  std::vector<ResponseConstants> constants_;
+  std::vector<double> phase_deg_;
+  double driving_force_n_;
+  double infeasible_log_likelihood_;
+  double limit_force_ratio_;
+  // Sum of (r_nom - omega_b / omega_n)^2 = minimum + curvature (1/omega_n - best)^2
+  double frequency_curvature_;
+  double frequency_best_period_;
+  double frequency_minimum_;
+};
+
+}  // namespace friction

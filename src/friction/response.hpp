@@ -1,0 +1,103 @@
+/// \file
+/// Steady response of a base-excited mass with Coulomb friction against a fixed wall (Den Hartog 1930; Lye
+/// and Marino 2023, Eqs. 10-21), as far as the motion is continuous.
+///
+/// For a given frequency ratio r everything but the force ratio phi is a constant, and the angle of the base
+/// motion against the response is the angle of a complex number
+///
+///     (a0 + a1 phi x0 + a2 phi^2) + i (b1 phi x0 + b2 phi^2),   x0 = sqrt(V^2 - (phi U)^2),
+///
+/// with V = 1/(1 - r^2). For the exact first Fourier coefficient it reduces to
+/// (V + 4/pi U phi^2) + i (4/pi) phi x0. The published scripts take a bin of a discrete transform instead,
+/// which gives the same form with other constants; both are computed by response_constants().
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+
+#include "portable_math/elementary.hpp"
+
+namespace friction {
+
+/// How S in the limit of continuous motion (Eq. 18) is taken.
+enum class LimitRule {
+  grid,     ///< maximum over tau = pi/15 ... 14 pi/15, as the published scripts do
+  supremum  ///< supremum over the half-period (0, pi)
+};
+
+/// How the phase angle (Eq. 21) is taken from the two signals.
+enum class PhaseRule {
+  discrete_bin,  ///< bin 30 of a 901-point transform of 30 periods, end point repeated (published scripts)
+  fourier_coefficient  ///< first Fourier coefficient, in closed form
+};
+
+struct Physics {
+  double driving_force_n = 2.5;                      ///< k Y_b, N (Section 3 of the paper)
+  LimitRule limit = LimitRule::supremum;             ///< Eq. 18
+  PhaseRule phase = PhaseRule::fourier_coefficient;  ///< Eq. 21
+};
+
+/// All that the phase angle at one frequency ratio depends on besides the force ratio. Dimensionless.
+struct ResponseConstants {
+  double frequency_ratio;    ///< r = omega_b / omega_n
+  double u;                  ///< U of Eq. 16
+  double v;                  ///< 1 / (1 - r^2)
+  double limit_force_ratio;  ///< phi_lim of Eq. 18: continuous motion for phi <= phi_lim
+  double a0, a1, a2;         ///< real part
+  double b1, b2;             ///< imaginary part
+};
+
+/// True where U or V is infinite, to within rounding: r = 1, 1/3, 1/5, ...
+[[nodiscard]] bool is_singular_ratio(double frequency_ratio);
+
+/// U of Eq. 16, written as tan(pi / (2 r)) / r.
+[[nodiscard]] double response_function_u(double frequency_ratio);
+
+/// S of Eq. 18: the largest value over the half-period of
+/// (r sin(tau/r) + U r^2 (cos tau - cos(tau/r))) / sin tau, which tends to 1 at tau -> 0.
+[[nodiscard]] double response_function_s(double frequency_ratio, LimitRule rule);
+
+/// Constants for one frequency ratio.
+/// \throws std::invalid_argument unless r is finite, positive and not singular (is_singular_ratio).
+[[nodiscard]] ResponseConstants response_constants(double frequency_ratio, const Physics& physics);
+
+/// x(tau) of Eq. 15 over the whole period, tau in [0, 2 pi), for phi <= phi_lim.
+[[nodiscard]] double response(const ResponseConstants& constants, double force_ratio, double tau);
+
+/// eta of Eqs. 19-20, in (-pi, pi]: the base moves as cos(tau + eta).
+[[nodiscard]] double base_phase(const ResponseConstants& constants, double force_ratio);
+
+namespace detail {
+
+template <class T>
+[[nodiscard]] inline T atan2_of(const T& y, const T& x) {
+  if constexpr (std::is_same_v<T, double>) {
+    return portable_math::atan2(y, x);
+  } else {
+    using std::atan2;
+    return atan2(y, x);
+  }
+}
+
+}  // namespace detail
+
+/// Phase angle in degrees, in [0, 180] (Eq. 21), of continuous motion; NaN where phi > phi_lim or phi < 0.
+/// T is double or a type that carries derivatives (ceres::Jet).
+template <class T>
+[[nodiscard]] T phase_deg(const ResponseConstants& c, const T& force_ratio) {
+  if (!(force_ratio >= 0.0) || force_ratio > c.limit_force_ratio) {
+    return T(std::numeric_limits<double>::quiet_NaN());
+  }
+  using std::sqrt;
+  const T u_phi = c.u * force_ratio;
+  const T phi_x0 = force_ratio * sqrt(c.v * c.v - u_phi * u_phi);
+  const T phi_squared = force_ratio * force_ratio;
+  const T real = c.a0 + c.a1 * phi_x0 + c.a2 * phi_squared;
+  const T imaginary = c.b1 * phi_x0 + c.b2 * phi_squared;
+  const T angle = detail::atan2_of(imaginary, real);
+  return (angle < 0.0 ? T(-angle) : angle) * (180.0 / std::numbers::pi);
+}
+
+}  // namespace friction

@@ -1,0 +1,90 @@
+/// \file
+/// Steady response of the Coulomb oscillator by integration in time, through sliding and sticking:
+///
+///     r^2 x'' + x + phi sgn(x') = cos(tau)                                                  (Eq. 10)
+///
+/// with the set-valued sign of Filippov at x' = 0: the mass sticks while |cos(tau) - x| <= phi and then
+/// slides the way cos(tau) - x points. No formula of Den Hartog's solution (response.hpp) enters, and
+/// nothing needs the motion to be continuous, so this both checks that solution and goes beyond its limit.
+///
+/// Everything is dimensionless: displacement in base amplitudes Y_b, time tau = omega_b t in radians, energy
+/// in k Y_b^2. The forcing is cos(tau): here tau = 0 is the maximum of the base motion, not that of x.
+#pragma once
+
+#include <array>
+
+namespace friction {
+
+/// Defaults give the phase to about 1e-9 deg in well under a millisecond, except near resonance.
+struct TimeIntegrationOptions {
+  /// Steps of the order-8 Runge-Kutta-Fehlberg method to the shorter of the forcing period and the natural
+  /// period, 2 pi min(1, r); 8 or more. Steps end at stops, so that the sign of velocity is fixed in each.
+  int steps_per_period = 64;
+  /// Width in tau, rad, to which a zero of velocity is bracketed; 1e-15 to 1e-3.
+  double event_tolerance = 1e-13;
+  /// Largest estimated distance to the periodic motion, relative to its size; 1e-15 to 1e-3.
+  double periodicity_tolerance = 1e-11;
+  /// Forcing periods to integrate at most, 1 or more; a steady response rarely takes more than ten.
+  int maximum_periods = 200;
+};
+
+/// Motion over half a forcing period, 0 <= tau <= pi.
+struct HalfPeriod {
+  double x;                ///< displacement at tau = pi
+  double velocity;         ///< dx/dtau at tau = pi; exactly 0 if the mass sticks then
+  double cosine_integral;  ///< integral of x cos(tau)
+  double sine_integral;    ///< integral of x sin(tau)
+  double path;             ///< integral of |x'|
+  double sticking_time;    ///< time spent sticking, rad
+  int stops;               ///< intervals of sticking that begin after tau = 0
+  /// Derivative of (x, r x') at tau = pi with respect to (x, r x') at tau = 0, by rows. Neither stops nor
+  /// reversals expand it: the distance of two motions in these coordinates never grows.
+  std::array<double, 4> derivative;
+};
+
+/// Integrates Eq. 10 from (x, velocity) at tau = 0 to tau = pi.
+/// \param frequency_ratio  r = omega_b / omega_n, from 1e-3 to 1e3
+/// \param force_ratio      phi = F_mu / (k Y_b), zero or more
+/// \param velocity         dx/dtau
+/// \throws std::invalid_argument for arguments or options out of range; the message names the field.
+[[nodiscard]] HalfPeriod integrate_half_period(double frequency_ratio, double force_ratio, double x,
+                                               double velocity, const TimeIntegrationOptions& options = {});
+
+/// How the search for the steady response ended.
+enum class SteadyState {
+  periodic,     ///< a periodic motion was found to periodicity_tolerance
+  at_rest,      ///< the mass never leaves x = 0 (phi >= 1): no phase is defined
+  not_periodic  ///< none found within maximum_periods: it is unbounded (r = 1 and phi < pi/4), not unique
+                ///< (phi = 0 and r = 1/3, 1/5, ...), or too near to either for the tolerance
+};
+
+/// Steady response. The numbers describe the periodic motion; where there is none they are NaN, counts 0.
+struct SteadyResponse {
+  SteadyState state;
+  double phase_deg;  ///< lag of the first harmonic of x behind cos(tau), in [0, 180] (Eq. 21)
+  double amplitude;  ///< of the first harmonic of x (0 at rest)
+  bool continuous;   ///< periodic and the mass never sticks
+  int stops_per_period;
+  double sticking_fraction;   ///< share of the period in which the mass sticks (1 at rest)
+  double x, velocity;         ///< state at tau = 0, from which the motion repeats
+  double work;                ///< of the forcing over a period, pi times the sine coefficient of x
+  double dissipation;         ///< by friction over a period, phi times the path
+  double periodicity_error;   ///< estimated distance to the periodic motion, relative to its size
+  double periods_integrated;  ///< in halves
+};
+
+/// Steady response to Eq. 10, starting from rest at x = 0.
+///
+/// Seeks the motion with x(tau + pi) = -x(tau) as the fixed point of the map from (x, r x') at tau = 0 to
+/// minus its value half a period later. The map brings no two points further apart, so that iterating it is
+/// integrating the transient; steps of Newton's method take the place of iterations where they can. The
+/// sine and cosine integrals are components of the integrated state, in closed form during sticking. Every
+/// machine gives the same bits (portable_math). Where the map is close to singular, near r = 1, its
+/// inverse amplifies errors of rounding and of the integrator; periodicity_error includes the former.
+/// \param frequency_ratio  r = omega_b / omega_n, from 1e-3 to 1e3
+/// \param force_ratio      phi = F_mu / (k Y_b), zero or more
+/// \throws std::invalid_argument for arguments or options out of range; the message names the field.
+[[nodiscard]] SteadyResponse integrate_steady_response(double frequency_ratio, double force_ratio,
+                                                       const TimeIntegrationOptions& options = {});
+
+}  // namespace friction

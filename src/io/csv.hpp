@@ -1,0 +1,134 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/errors.hpp"
+#include "io/files.hpp"
+
+namespace io {
+
+/// A CSV file with a header line, held in memory. The dialect is RFC 4180 with these readings:
+///  - lines end in LF or CRLF; a UTF-8 byte order mark and blank lines are skipped;
+///  - blanks and tabs around a cell are dropped, inside quotes they are kept;
+///  - a quoted cell ends on its own line;
+///  - the separator is the comma, the decimal sign the point, whatever the locale.
+///
+/// Every complaint about the file is an InputError of one line, such as
+///
+///     data/x.csv:4: column 'phase_deg': value 'abc': expected a finite number
+class CsvTable {
+ public:
+  /// Reads the whole file. Throws InputError if it cannot be read, has no header or no row, if a column name
+  /// is empty or repeated, if a row has not as many cells as the header, if a quote is not closed or stands
+  /// inside an unquoted cell, or if the file holds NUL bytes or is separated by semicolons or tabs.
+  static CsvTable read(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const noexcept { return path_; }
+  std::size_t rows() const noexcept { return lines_.size(); }
+  const std::vector<std::string>& column_names() const noexcept { return names_; }
+  bool has(std::string_view column) const noexcept;
+
+  /// Line of the file, counted from 1, that holds the row. Throws std::out_of_range.
+  std::size_t line(std::size_t row) const { return lines_.at(row); }
+
+  /// One cell, unquoted; valid while the table lives. Throws InputError if there is no such column,
+  /// std::out_of_range if there is no such row.
+  std::string_view cell(std::size_t row, std::string_view column) const;
+
+  /// Throws InputError, naming the first column that is missing, unless all of them exist. Others may exist
+  /// too.
+  void require_columns(std::initializer_list<std::string_view> columns) const;
+
+  /// A whole column, one element a row. Each throws InputError if there is no such column or a cell does not
+  /// fit. Numbers are decimal, correctly rounded, and may carry a sign; a magnitude that a double cannot hold
+  /// (1e400, 1e-400) and hexadecimal digits are refused.
+  std::vector<double> numbers(std::string_view column) const;         ///< finite numbers only
+  std::vector<double> numbers_or_nan(std::string_view column) const;  ///< nan, inf and -inf too, in any case
+  std::vector<long> integers(std::string_view column) const;          ///< no point and no exponent
+  std::vector<std::string> text(std::string_view column) const;       ///< any text, the empty one included
+
+  /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected` completes
+  /// the sentence "expected ...".
+  [[noreturn]] void fail(std::size_t row, std::string_view column, std::string_view expected) const;
+
+ private:
+  struct Cell {
+    std::size_t begin;
+    std::size_t size;
+  };
+  CsvTable() = default;
+  void parse();
+  void parse_line(std::size_t begin, std::size_t end, std::size_t line, std::vector<Cell>& cells);
+  std::size_t closing_quote(std::size_t open, std::size_t end) const;
+  void parse_header(std::size_t begin, std::size_t end, std::size_t line);
+  std::size_t index(std::string_view column) const;
+  std::string_view view(Cell cell) const { return std::string_view(buffer_).substr(cell.begin, cell.size); }
+  template <class Value, class Parser>
+  std::vector<Value> parsed_column(std::string_view column, Parser parser) const;
+
+  std::filesystem::path path_;
+  std::string buffer_;
+  std::vector<std::string> names_;
+  std::size_t header_line_ = 0;
+  std::vector<Cell> cells_;  // row by row
+  std::vector<std::size_t> lines_;
+};
+
+/// Shortest decimal text that reads back as the same double; "nan" (without sign), "inf", "-inf".
+std::string format_number(double value);
+
+/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before commit().
+class CsvWriter {
+ public:
+  /// Opens the output ("-" is standard output) and writes the header. Throws OutputError if it cannot be
+  /// opened, std::logic_error if there is no column or a column name is empty or repeated.
+  CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns);
+
+  /// Writes one row: each argument a number, a text, or a vector or span of doubles or texts that fills
+  /// several cells. Doubles are written by format_number. Texts are quoted where they must be; one with a
+  /// line break in it is valid RFC 4180 but CsvTable refuses it. Throws OutputError, and std::logic_error if
+  /// the number of cells is not the number of columns; such a row leaves no trace.
+  template <class... Cells>
+  void row(const Cells&... cells) {
+    (append(cells), ...);
+    end_row();
+  }
+
+  /// Puts the finished file in place, see OutputFile::commit.
+  void commit() { file_.commit(); }
+
+ private:
+  void append(double value);
+  template <std::integral Integer>
+  requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) void append(Integer value) {
+    if constexpr (std::signed_integral<Integer>) {
+      append_signed(value);
+    } else {
+      append_unsigned(value);
+    }
+  }
+  void append(std::string_view value);
+  void append(const char* value) { append(std::string_view(value)); }
+  void append(std::span<const double> values);
+  void append(std::span<const std::string> texts);
+  void append(bool) = delete;
+  void append(char) = delete;
+  void append_signed(long long value);
+  void append_unsigned(unsigned long long value);
+  void separate();
+  void end_row();
+
+  OutputFile file_;
+  std::size_t columns_;
+  std::size_t cells_in_row_ = 0;
+  std::string row_;
+};
+
+}  // namespace io

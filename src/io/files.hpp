@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "io/errors.hpp"
+
+namespace io {
+
+/// A file that appears complete or not at all. The data go to a temporary file beside the target
+/// (`.name.csv.<process id>.part`), and commit() renames it over the target. Without commit() the destructor
+/// removes the temporary file, and what stood under the path before is untouched. Not thread-safe.
+///
+/// What the path may be:
+///  - "-" or /dev/stdout, /dev/stderr, /dev/fd/N: that open descriptor, in place;
+///  - a device or a pipe: written in place, never renamed over;
+///  - a symbolic link: the file it points to is replaced or created, the link stays;
+///  - an existing file: replaced, keeping its permissions; one that is write-protected is refused.
+///
+/// Every failure is an OutputError that names the path, the system's reason and what was expected.
+class OutputFile {
+ public:
+  /// Opens the output, so that a bad path is reported before the work. Throws OutputError.
+  explicit OutputFile(const std::filesystem::path& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Appends, through a buffer. Throws OutputError, and std::logic_error after commit().
+  void write(std::string_view text);
+
+  /// Flushes, syncs to the disk, closes and renames. Throws OutputError, and then the target is as it was;
+  /// std::logic_error if called twice.
+  void commit();
+
+  /// The path as given.
+  const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  void open_descriptor(int descriptor);
+  void open_in_place();
+  void open_partial();
+  void flush();
+  void write_through(std::string_view text);
+  void require_open() const;
+  void discard() noexcept;
+  [[noreturn]] void fail(std::string_view action, int error, std::string_view expected) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path target_;   // absolute, links followed
+  std::filesystem::path partial_;  // empty when written in place
+  int slot_ = -1;
+  int fd_ = -1;
+  bool is_stdout_ = false;
+  std::string buffer_;
+};
+
+/// From here on a signal that ends the process (SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ) first
+/// removes the temporary files of all live OutputFiles, then ends it as it would have. Signals that are
+/// ignored stay ignored. Covers up to 64 temporary files at a time; call it once, early in main.
+void remove_partial_files_on_signals();
+
+}  // namespace io

@@ -1,0 +1,73 @@
+#include "io/partial_files.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <climits>
+#include <cstring>
+
+#include "io/files.hpp"
+
+namespace io {
+namespace partial_files {
+namespace {
+
+enum State : int { free_slot, filling, live, claimed };
+
+struct Slot {
+  std::atomic<int> state{free_slot};
+  char path[PATH_MAX];
+};
+
+constexpr int slot_count = 64;
+std::array<Slot, slot_count> slots;
+static_assert(std::atomic<int>::is_always_lock_free, "the signal handler needs lock-free atomics");
+
+extern "C" void remove_all_and_die(int signal_number) {
+  for (Slot& slot : slots) {
+    int expected = live;
+    if (slot.state.compare_exchange_strong(expected, claimed)) ::unlink(slot.path);
+  }
+  // SA_RESETHAND has restored the default action; it is taken when this handler returns.
+  ::raise(signal_number);
+}
+
+}  // namespace
+
+int add(const char* path) noexcept {
+  const std::size_t size = std::strlen(path) + 1;
+  if (size > PATH_MAX) return -1;
+  for (int i = 0; i < slot_count; ++i) {
+    Slot& slot = slots[static_cast<std::size_t>(i)];
+    int expected = free_slot;
+    if (!slot.state.compare_exchange_strong(expected, filling)) continue;
+    std::memcpy(slot.path, path, size);
+    slot.state.store(live);
+    return i;
+  }
+  return -1;
+}
+
+void remove(int slot) noexcept {
+  if (slot < 0) return;
+  int expected = live;
+  slots[static_cast<std::size_t>(slot)].state.compare_exchange_strong(expected, free_slot);
+}
+
+}  // namespace partial_files
+
+void remove_partial_files_on_signals() {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ}) {
+    struct sigaction old {};
+    if (::sigaction(signal_number, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = partial_files::remove_all_and_die;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(signal_number, &action, nullptr);
+  }
+}
+
+}  // namespace io

@@ -1,0 +1,127 @@
+#include "pbox/pbox.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace pbox {
+namespace {
+
+struct Jump {
+  double x;
+  double left;   // value of its ECDF just below x, counting one of several equal samples at a time
+  double right;  // value after this jump
+};
+
+std::vector<Jump> sorted_jumps(std::span<const Ecdf> ecdfs) {
+  std::size_t total = 0;
+  for (const Ecdf& ecdf : ecdfs) total += ecdf.size();
+  std::vector<Jump> jumps;
+  jumps.reserve(total);
+  for (const Ecdf& ecdf : ecdfs) {
+    const auto n = static_cast<double>(ecdf.size());
+    for (std::size_t k = 0; k < ecdf.size(); ++k) {
+      jumps.push_back({ecdf.sorted()[k], static_cast<double>(k) / n, static_cast<double>(k + 1) / n});
+    }
+  }
+  std::sort(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) { return a.x < b.x; });
+  return jumps;
+}
+
+void require_consistent(const PBox& box) {
+  if (box.x.empty() || box.lower.size() != box.x.size() || box.upper.size() != box.x.size()) {
+    throw std::invalid_argument("pbox::PBox: expected x, lower and upper of the same length, at least 1");
+  }
+}
+
+void require_ecdfs(std::span<const Ecdf> ecdfs) {
+  if (ecdfs.empty()) throw std::invalid_argument("pbox: expected at least one ECDF");
+}
+
+double area_by_ranks(std::span<const Ecdf> ecdfs) {
+  const std::span<const double> first = ecdfs.front().sorted();
+  std::vector<double> low(first.begin(), first.end());
+  std::vector<double> high = low;
+  for (const Ecdf& ecdf : ecdfs.subspan(1)) {
+    const double* const x = ecdf.sorted().data();
+    for (std::size_t k = 0; k < low.size(); ++k) {
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t k = 0; k < low.size(); ++k) sum += high[k] - low[k];
+  return sum / static_cast<double>(low.size());
+}
+
+}  // namespace
+
+Ecdf::Ecdf(std::vector<double> samples) : sorted_(std::move(samples)) {
+  if (sorted_.empty()) throw std::invalid_argument("pbox::Ecdf: expected at least one sample");
+  if (!std::all_of(sorted_.begin(), sorted_.end(), [](double x) { return std::isfinite(x); })) {
+    throw std::invalid_argument("pbox::Ecdf: expected finite samples");
+  }
+  std::sort(sorted_.begin(), sorted_.end());
+}
+
+double Ecdf::operator()(double x) const {
+  const auto above = std::upper_bound(sorted_.begin(), sorted_.end(), x);
+  return static_cast<double>(above - sorted_.begin()) / static_cast<double>(sorted_.size());
+}
+
+PBox envelope(std::span<const Ecdf> ecdfs) {
+  require_ecdfs(ecdfs);
+  const std::vector<Jump> jumps = sorted_jumps(ecdfs);
+  PBox box;
+
+  // ECDFs never decrease, so the largest value reached by any jump so far is the largest ECDF here.
+  double highest = 0.0;
+  for (const Jump& jump : jumps) {
+    highest = std::max(highest, jump.right);
+    if (box.x.empty() || box.x.back() < jump.x) {
+      box.x.push_back(jump.x);
+      box.upper.push_back(highest);
+    } else {
+      box.upper.back() = highest;
+    }
+  }
+
+  // From the right: an ECDF that still has a jump ahead has the value left of its next one, others are 1.
+  box.lower.resize(box.x.size());
+  double lowest = 1.0;
+  std::size_t next = jumps.size();
+  for (std::size_t i = box.x.size(); i-- > 0;) {
+    while (next > 0 && jumps[next - 1].x > box.x[i]) lowest = std::min(lowest, jumps[--next].left);
+    box.lower[i] = lowest;
+  }
+  return box;
+}
+
+Bounds evaluate(const PBox& box, double x) {
+  require_consistent(box);
+  const auto above = std::upper_bound(box.x.begin(), box.x.end(), x);
+  if (above == box.x.begin()) return {0.0, 0.0};
+  if (above == box.x.end()) return {1.0, 1.0};
+  const auto i = static_cast<std::size_t>(above - box.x.begin()) - 1;
+  return {box.lower[i], box.upper[i]};
+}
+
+double area(const PBox& box) {
+  require_consistent(box);
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < box.x.size(); ++i) {
+    sum += (box.upper[i] - box.lower[i]) * (box.x[i + 1] - box.x[i]);
+  }
+  return sum;
+}
+
+double area_metric(std::span<const Ecdf> ecdfs) {
+  require_ecdfs(ecdfs);
+  const std::size_t n = ecdfs.front().size();
+  const bool equal_sizes =
+      std::all_of(ecdfs.begin(), ecdfs.end(), [n](const Ecdf& ecdf) { return ecdf.size() == n; });
+  return equal_sizes ? area_by_ranks(ecdfs) : area(envelope(ecdfs));
+}
+
+}  // namespace pbox

@@ -1,0 +1,73 @@
+/// \file
+/// Metropolis steps on rows of a population, tempered at beta.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tmcmc/prior.hpp"
+
+namespace tmcmc {
+
+/// What happens to a proposal outside the prior box.
+enum class Boundary {
+  reject,  ///< the chain stays; leaves the tempered posterior invariant
+  redraw   ///< drawn again until inside, without the correction of the acceptance ratio (published scripts)
+};
+
+/// The Metropolis kernel of one stage.
+struct MetropolisKernel {
+  Eigen::MatrixXd factor;  ///< lower Cholesky factor of the proposal covariance
+  double beta = 1.0;
+  Boundary boundary = Boundary::reject;
+  Index max_redraws = 100000;
+  std::uint32_t stage = 0;  ///< enters the random stream
+};
+
+struct MoveCounts {
+  Index proposals = 0;
+  Index accepted = 0;
+  Index evaluations = 0;  ///< log-likelihoods asked for; proposals outside the box need none
+  Index redraws = 0;
+
+  MoveCounts& operator+=(const MoveCounts& other);
+};
+
+/// Performs Metropolis steps; owns the work space, which is reused from step to step.
+class Mover {
+ public:
+  /// \param threads     threads over blocks of rows
+  /// \param batch_rows  most rows a call of the log-likelihood gets; 0: one call a thread and step
+  Mover(const LogLikelihood& log_likelihood, const BoxPrior& prior, const StreamKey& key, int threads,
+        Index batch_rows);
+  ~Mover();
+  Mover(const Mover&) = delete;
+  Mover& operator=(const Mover&) = delete;
+
+  /// One Metropolis step of the chains that live in the given rows, in place: theta' = theta + L z, accepted
+  /// with probability min(1, (L(theta') / L(theta))^beta). The draws depend on key, stage, row and `draw`
+  /// alone.
+  /// \param rows  rows to move, each at most once; empty: all
+  /// \throws SamplingError for a log-likelihood of NaN or plus infinity, or if max_redraws is exceeded.
+  MoveCounts step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,
+                  Population& points, Eigen::VectorXd& log_likelihood);
+
+ private:
+  struct Block;
+  MoveCounts step_block(const MetropolisKernel& kernel, const Index* rows, Index begin, Index end,
+                        std::uint32_t draw, Population& points, Eigen::VectorXd& log_likelihood,
+                        Block& block) const;
+
+  const LogLikelihood& log_likelihood_;
+  const BoxPrior& prior_;
+  StreamKey key_;
+  int threads_;
+  Index batch_rows_;
+  std::vector<std::unique_ptr<Block>> blocks_;
+};
+
+/// \throws SamplingError naming the first point whose log-likelihood is NaN or plus infinity.
+void require_valid(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                   const Eigen::Ref<const Eigen::VectorXd>& log_likelihood);
+
+}  // namespace tmcmc

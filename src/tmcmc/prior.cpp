@@ -1,0 +1,42 @@
+#include "tmcmc/prior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace tmcmc {
+
+BoxPrior::BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper)
+    : lower_(std::move(lower)), upper_(std::move(upper)) {
+  if (lower_.size() == 0 || lower_.size() != upper_.size()) {
+    throw std::invalid_argument("prior: expected as many lower as upper bounds, at least one of each");
+  }
+  for (Index j = 0; j < lower_.size(); ++j) {
+    if (!std::isfinite(lower_[j]) || !std::isfinite(upper_[j]) || !(lower_[j] < upper_[j])) {
+      throw std::invalid_argument("prior: bounds of parameter " + std::to_string(j) + " are [" +
+                                  std::to_string(lower_[j]) + ", " + std::to_string(upper_[j]) +
+                                  "]: expected finite numbers, lower < upper");
+    }
+  }
+}
+
+Population BoxPrior::sample(Index n, const StreamKey& key) const {
+  Population points(n, dimension());
+  for (Index i = 0; i < n; ++i) {
+    Words words{};
+    for (Index j = 0; j < dimension(); ++j) {
+      const auto word = static_cast<std::size_t>(j % 4);
+      if (word == 0) {
+        words = random_words(key, {.purpose = Purpose::prior,
+                                   .row = static_cast<std::uint64_t>(i),
+                                   .block = static_cast<std::uint32_t>(j / 4)});
+      }
+      const double value = lower_[j] + (upper_[j] - lower_[j]) * uniform_open(words[word]);
+      points(i, j) = std::min(std::max(value, lower_[j]), upper_[j]);
+    }
+  }
+  return points;
+}
+
+}  // namespace tmcmc

@@ -1,0 +1,28 @@
+/// \file
+/// Independent uniform prior on a box (Table 2).
+#pragma once
+
+#include "tmcmc/random.hpp"
+#include "tmcmc/types.hpp"
+
+namespace tmcmc {
+
+class BoxPrior {
+ public:
+  /// \param lower,upper  one bound a parameter
+  /// \throws std::invalid_argument unless both have the same positive length and lower < upper, all finite.
+  BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper);
+
+  [[nodiscard]] Index dimension() const { return lower_.size(); }
+  [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
+  [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
+
+  /// n independent draws, n x dimension.
+  [[nodiscard]] Population sample(Index n, const StreamKey& key) const;
+
+ private:
+  Eigen::VectorXd lower_;
+  Eigen::VectorXd upper_;
+};
+
+}  // namespace tmcmc

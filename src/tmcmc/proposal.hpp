@@ -1,0 +1,26 @@
+/// \file
+/// Covariance of the Normal proposal (Eq. 5).
+#pragma once
+
+#include "tmcmc/types.hpp"
+
+namespace tmcmc {
+
+/// The m in Eq. 5.
+enum class Centre {
+  weighted_mean,  ///< Ching and Chen 2007
+  plain_mean      ///< as Eq. 5 is printed
+};
+
+/// Sigma = scale^2 sum_i w_i (theta_i - m)(theta_i - m)^T / sum_i w_i, d x d.
+/// \param points   n x d
+/// \param weights  n, non-negative, with the sum weight_sum > 0
+[[nodiscard]] Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weights,
+                                                  double weight_sum, double scale, Centre centre);
+
+/// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a zero
+/// column. Plain loops, since the order of Eigen's sums depends on the instruction set.
+/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding.
+[[nodiscard]] Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance);
+
+}  // namespace tmcmc

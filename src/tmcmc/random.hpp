@@ -1,0 +1,62 @@
+/// \file
+/// Random numbers as a function of where they are used (Salmon et al. 2011, Philox 4x64-10): no generator is
+/// carried along, so neither threads nor the order of work can change a draw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "portable_math/elementary.hpp"
+
+namespace tmcmc {
+
+/// Names one run. Runs that differ in any field have independent streams.
+struct StreamKey {
+  std::uint64_t seed = 0;
+  std::uint32_t study = 0;
+  std::uint32_t arm = 0;  ///< which of the samplers that a study compares; below 2^24
+  std::uint32_t run = 0;
+};
+
+/// What a draw is for; keeps the draws of one stage apart.
+enum class Purpose : std::uint32_t { prior, resampling, move, data };
+
+/// Place of a block of four random words within a run.
+struct DrawId {
+  Purpose purpose = Purpose::prior;
+  std::uint32_t stage = 0;
+  std::uint64_t row = 0;      ///< row of the population
+  std::uint32_t draw = 0;     ///< step of a move
+  std::uint32_t attempt = 0;  ///< repetition of a draw that was discarded
+  std::uint32_t block = 0;    ///< where one draw needs more than four words
+};
+
+using Words = std::array<std::uint64_t, 4>;
+
+/// Four independent uniform 64-bit words. The counter is (stage | arm, purpose), row, (draw, attempt), block;
+/// the key is seed and (study, run).
+[[nodiscard]] Words random_words(const StreamKey& key, const DrawId& id);
+
+/// Uniform on the open interval (0, 1): (k + 1/2) 2^-52 with k the upper 52 bits.
+PORTABLE_MATH_INLINE double uniform_open(std::uint64_t word) {
+  return std::bit_cast<double>((word >> 12U) | 0x3ff0000000000000U) - 0.99999999999999988898;
+}
+
+/// Uniform in [0, 1) from 32 bits.
+PORTABLE_MATH_INLINE double uniform_32(std::uint64_t bits) {
+  return (std::bit_cast<double>((bits & 0xffffffffU) | 0x4330000000000000U) - 4503599627370496.0) * 0x1p-32;
+}
+
+struct NormalPair {
+  double first;
+  double second;
+};
+
+/// Two independent standard normals (Box and Muller 1958): radius from 52 bits of a word, angle from 32 bits.
+PORTABLE_MATH_INLINE NormalPair normal_pair(std::uint64_t radius_word, std::uint64_t angle_bits) {
+  const double radius = std::sqrt(-2.0 * portable_math::log_positive(uniform_open(radius_word)));
+  const auto angle = portable_math::sin_cos_turns(uniform_32(angle_bits));
+  return {radius * angle.cos, radius * angle.sin};
+}
+
+}  // namespace tmcmc

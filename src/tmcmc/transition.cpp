@@ -1,0 +1,171 @@
+#include "tmcmc/transition.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "portable_math/sums.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+constexpr double log_step_tolerance = 1e-13;
+constexpr double smallest_step = 1e-300;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// How far the step is beyond the criterion, on a scale that is nearly linear in log(step): log(CoV /
+/// target), and the same through N_eff. Increasing in the step.
+class Excess {
+ public:
+  Excess(WeightStatistics& statistics, const Criterion& criterion, Index counted)
+      : statistics_(statistics), criterion_(criterion), counted_(static_cast<double>(counted)) {}
+
+  double operator()(double step) {
+    ++evaluations_;
+    if (criterion_.kind == CriterionKind::coefficient_of_variation) {
+      return portable_math::log(
+          statistics_.coefficient_of_variation(step, criterion_.deviation, criterion_.counted) /
+          criterion_.target);
+    }
+    const double excess = counted_ / statistics_.effective_sample_size(step) - 1.0;
+    return 0.5 * portable_math::log(std::max(excess, 0.0) / (1.0 / criterion_.target - 1.0));
+  }
+
+  [[nodiscard]] int evaluations() const { return evaluations_; }
+
+ private:
+  WeightStatistics& statistics_;
+  Criterion criterion_;
+  double counted_;
+  int evaluations_ = 0;
+};
+
+/// Standard deviation of the feasible log-likelihoods, from their differences to the largest.
+double spread(ConstDoubles log_likelihood, Index feasible) {
+  const double n = static_cast<double>(feasible);
+  const double largest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  const auto feasible_mean = [&](auto term) {
+    return portable_math::sum_of(log_likelihood.size(), [&](std::size_t i) {
+      return log_likelihood[i] == -infinity ? 0.0 : term(log_likelihood[i] - largest) / n;
+    });
+  };
+  const double mean = feasible_mean([](double value) { return value; });
+  double scale = 0.0;
+  for (const double value : log_likelihood) {
+    scale = value == -infinity ? scale : std::max(scale, std::fabs(value - largest - mean));
+  }
+  if (!(scale > 0.0) || !std::isfinite(scale)) {
+    return 0.0;
+  }
+  return scale * std::sqrt(feasible_mean(
+                     [&](double value) { return (value - mean) / scale * ((value - mean) / scale); }));
+}
+
+}  // namespace
+
+void Criterion::validate() const {
+  if (!(target > 0.0) || !std::isfinite(target)) {
+    throw std::invalid_argument("criterion.target = " + std::to_string(target) +
+                                ": expected a positive number");
+  }
+  if (kind == CriterionKind::effective_sample_size && target > 1.0) {
+    throw std::invalid_argument("criterion.target = " + std::to_string(target) +
+                                ": expected a fraction of the samples, at most 1");
+  }
+}
+
+Criterion coefficient_of_variation_rule(double target) {
+  return {.kind = CriterionKind::coefficient_of_variation, .target = target};
+}
+
+Criterion effective_sample_size_rule(double fraction) {
+  return {.kind = CriterionKind::effective_sample_size, .target = fraction};
+}
+
+Transition choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion) {
+  std::vector<double> weights;
+  return choose_step(log_likelihood, remaining, criterion, weights);
+}
+
+Transition choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion,
+                       std::vector<double>& weights) {
+  WeightStatistics statistics(log_likelihood, weights);
+  const Index feasible = statistics.feasible();
+  const Index counted =
+      criterion.counted == Counted::all ? static_cast<Index>(log_likelihood.size()) : feasible;
+  Transition result;
+  if (feasible == 0) {
+    result.status = TransitionStatus::infeasible;
+    return result;
+  }
+  Excess excess(statistics, criterion, counted);
+  const auto finish = [&](double step, TransitionStatus status) {
+    result.step = step;
+    result.status = status;
+    result.effective_sample_size = statistics.effective_sample_size(step);
+    result.coefficient_of_variation =
+        statistics.coefficient_of_variation(step, criterion.deviation, criterion.counted);
+    result.evaluations = excess.evaluations() + 2;
+    return result;
+  };
+  const double excess_remaining = excess(remaining);
+  if (!(excess_remaining >
+        0.0)) {  // a NaN: one sample with the N-1 deviation, or 0/0 in N_eff = N with equal weights
+    return finish(remaining, TransitionStatus::final_step);
+  }
+  if (criterion.kind == CriterionKind::effective_sample_size && criterion.target == 1.0) {
+    result.status = TransitionStatus::zero_step;
+    result.evaluations = excess.evaluations();
+    return result;
+  }
+
+  const double sd = spread(log_likelihood, feasible);
+  double high = remaining;
+  double excess_high = excess_remaining;
+  double low = std::min(0.5 * remaining, sd > 0.0 ? 0.9 / sd : remaining);
+  low = std::max(low, smallest_step);
+  double excess_low = excess(low);
+  while (excess_low < 0.0 && 4.0 * low < high) {  // a few steps up keep the bracket short
+    const double next = 4.0 * low;
+    const double excess_next = excess(next);
+    if (excess_next >= 0.0) {
+      high = next;
+      excess_high = excess_next;
+      break;
+    }
+    low = next;
+    excess_low = excess_next;
+  }
+  for (double factor = 0.25; excess_low > 0.0; factor *= factor) {
+    high = low;
+    excess_high = excess_low;
+    low = std::max(low * std::max(factor, 1e-6), smallest_step);
+    excess_low = excess(low);
+    if (low <= smallest_step && excess_low > 0.0) {
+      result.status = TransitionStatus::unreachable;
+      result.evaluations = excess.evaluations();
+      return result;
+    }
+  }
+
+  if (excess_low == -infinity) {  // CoV has underflowed to 0: any finite value of that sign will do
+    excess_low = -40.0;
+  }
+  std::uintmax_t iterations = 200;
+  const auto root = boost::math::tools::toms748_solve(
+      [&](double log_step) { return std::max(excess(portable_math::exp(log_step)), -40.0); },
+      portable_math::log(low), portable_math::log(high), excess_low, excess_high,
+      [](double a, double b) { return std::fabs(b - a) <= log_step_tolerance; }, iterations);
+  if (std::fabs(root.second - root.first) > 1e-9) {
+    throw SamplingError("the tempering step was not found to 1e-9 within 200 evaluations");
+  }
+  result.bracket_low = portable_math::exp(root.first);
+  result.bracket_high = portable_math::exp(root.second);
+  return finish(std::min(remaining, 0.5 * (result.bracket_low + result.bracket_high)),
+                TransitionStatus::solved);
+}
+
+}  // namespace tmcmc

@@ -1,0 +1,41 @@
+/// \file
+/// Types shared by the parts of the sampler.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <stdexcept>
+
+namespace tmcmc {
+
+using Index = Eigen::Index;
+
+/// One row a sample, one column a parameter.
+using Population = Eigen::MatrixXd;
+
+/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point that the
+/// model excludes; NaN and plus infinity are errors. It has to give a row the same value whatever rows stand
+/// beside it, and with more than one thread it is called at the same time from each.
+using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                         Eigen::Ref<Eigen::VectorXd> log_likelihood)>;
+
+using ConstDoubles = std::span<const double>;
+
+/// A run that cannot go on: no feasible draw, a criterion that no step meets, a NaN likelihood.
+class SamplingError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// No draw from the prior is feasible: prior and model do not go together.
+class InfeasiblePriorError : public SamplingError {
+ public:
+  using SamplingError::SamplingError;
+};
+
+[[nodiscard]] inline ConstDoubles as_span(const Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+}  // namespace tmcmc

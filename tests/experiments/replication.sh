@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Replicated studies: killed at any moment and started again, or shared between processes, the bytes are the same.
+source "$(dirname "$0")/support.sh"
+
+study="$bin/replicated_study --runs 10 --samples 400 --quiet"
+$study --studies 30 --output whole.csv
+check "30 studies of two samplers and a header" test "$(wc -l <whole.csv)" = 61
+
+for delay in 0.05 0.3 0.6 0.9; do
+  for signal in KILL TERM INT; do
+    rm -f resumed.csv resumed.csv.journal
+    attempts=0
+    while [ ! -e resumed.csv ] && [ $attempts -lt 60 ]; do
+      timeout --preserve-status -s $signal "$(awk "BEGIN {print $delay + $attempts * 0.15}")" $study --studies 30 --output resumed.csv 2>/dev/null
+      attempts=$((attempts + 1))
+    done
+    check "killed ($signal) after $delay s" cmp -s whole.csv resumed.csv
+    check "the journal is gone" test ! -e resumed.csv.journal
+  done
+done
+
+# A row cut in the middle is made again.
+rm -f resumed.csv
+$study --studies 3 --output cut.csv
+{ timeout -s KILL 0.4 $study --studies 30 --output resumed.csv; } 2>/dev/null
+if [ -e resumed.csv.journal ]; then
+  size=$(stat -c %s resumed.csv.journal)
+  truncate -s $((size - 7)) resumed.csv.journal
+fi
+$study --studies 30 --output resumed.csv
+check "a torn last row" cmp -s whole.csv resumed.csv
+
+for cut in 1 13 29; do
+  $study --studies $cut --output shard1.csv
+  $study --first-study $cut --studies $((30 - cut)) --threads 1 --output shard2.csv
+  check "shards at $cut" cmp -s whole.csv <(cat shard1.csv shard2.csv)
+done
+$study --studies 30 --threads 3 --output threads.csv
+check "three threads" cmp -s whole.csv threads.csv
+check "standard output" cmp -s whole.csv <($study --studies 30 --output -)
+
+{ timeout -s KILL 0.3 $study --studies 30 --output other.csv; } 2>/dev/null
+if [ -e other.csv.journal ]; then
+  expect_error 2 'other inputs or options' $study --studies 30 --seed 2 --output other.csv
+  expect_error 2 'other inputs or options' $study --studies 30 --cov-target 0.9 --output other.csv
+fi
+expect_error 2 'missing/out.csv' $study --studies 2 --output missing/out.csv
+
+# Verdicts: a printed number moved out of its interval flips; N/4 is not N/2.
+mkdir -p data/generated
+"$bin/replicated_study" --runs 20 --samples 300 --studies 40 --quiet --output null.csv
+"$bin/replicated_study" --runs 20 --samples 300 --studies 40 --ess-fraction 0.25 --quiet --output quarter.csv
+verdict() {  # CLAIM REPLICATED TABLE3
+  "$bin/verdicts" --replicated "$2" --table3 "$3" --quiet --output - | awk -F, -v id="$1" '$1 == id' | grep -oE 'reproduced|consistent with chance|not supported|contradicted|internally contradictory|cannot be tested' | tail -1
+}
+table3=data/published/table3_pbox_area.csv
+check "N/2 against CoV = 1 is one algorithm in iterations" test "$(verdict C4 null.csv $table3)" != contradicted
+check "N/4 takes fewer iterations" test "$(verdict C4 quarter.csv $table3)" = contradicted
+compared() { "$bin/fig9_null_distributions" --replicated null.csv --table3 "$1" --quiet --printed-output - | awk -F, '$1 == "TMCMC" && $2 == "friction_force_n" {print $6}'; }
+median=$("$bin/fig9_null_distributions" --replicated null.csv --quiet --output - | awk -F, '$1 == "TMCMC" && $2 == "friction_force_n" {print $3}' | sort -g | sed -n 20p)
+sed "s/^TMCMC,0.08151/TMCMC,$median/" $table3 >median.csv
+sed "s/^TMCMC,0.08151/TMCMC,9.9/" $table3 >moved.csv
+check "the median is typical" awk -v p="$(compared median.csv)" 'BEGIN {exit !(p > 0.5)}'
+check "a moved number is not" awk -v p="$(compared moved.csv)" 'BEGIN {exit !(p < 0.05)}'
+finish

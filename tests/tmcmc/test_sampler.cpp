@@ -1,0 +1,550 @@
+// What a run promises besides the right distribution: records, determinism, invariance, stops and errors.
+
+#include <algorithm>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tmcmc/sampler.hpp"
+
+namespace {
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+using tmcmc::Boundary;
+using tmcmc::BoxPrior;
+using tmcmc::Counted;
+using tmcmc::CriterionKind;
+using tmcmc::fixed_schedule;
+using tmcmc::Index;
+using tmcmc::MoveKind;
+using tmcmc::Options;
+using tmcmc::Problem;
+using tmcmc::Result;
+using tmcmc::SamplingError;
+using tmcmc::StageRecord;
+using tmcmc::State;
+using tmcmc::StopReason;
+using tmcmc::StreamKey;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounding = 1e-12;
+
+template <class Function>
+tmcmc::LogLikelihood by_rows(Function function) {
+  return [function](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+    for (Index i = 0; i < points.rows(); ++i) {
+      values[i] = function(points.row(i));
+    }
+  };
+}
+
+/// A narrow ridge in three dimensions, reached in about eight stages.
+Problem ridge() {
+  return {by_rows([](const auto& x) {
+            const double a = (x[0] - 1.0) / 0.05;
+            const double b = (x[1] - x[0]) / 0.1;
+            return -0.5 * (a * a + b * b) - std::fabs(x[2]);
+          }),
+          BoxPrior(Eigen::Vector3d(-5.0, -5.0, -5.0), Eigen::Vector3d(5.0, 5.0, 5.0))};
+}
+
+/// The same with values on a grid of 2^-20, so that a constant can be added without rounding.
+Problem ridge_on_a_grid(double constant) {
+  const Problem exact = ridge();
+  return {
+      [exact, constant](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+        exact.log_likelihood(points, values);
+        for (double& value : values) {
+          value = std::round(value * 0x1p20) * 0x1p-20 + constant;
+        }
+      },
+      exact.prior};
+}
+
+Options few_samples() {
+  Options options;
+  options.samples = 203;
+  options.proposal_scale = 0.8;
+  return options;
+}
+
+Result run_ridge(const Options& options, const StreamKey& key = {.seed = 5}) {
+  return tmcmc::run(ridge(), options, key);
+}
+
+void check_same_bits(const Result& a, const Result& b) {
+  CHECK((a.final.points == b.final.points));
+  CHECK((a.final.log_likelihood == b.final.log_likelihood));
+  CHECK(a.final.log_evidence == b.final.log_evidence);
+  REQUIRE(a.stages.size() == b.stages.size());
+  for (std::size_t s = 0; s < a.stages.size(); ++s) {
+    CHECK(a.stages[s].beta == b.stages[s].beta);
+    CHECK(a.stages[s].acceptance_rate == b.stages[s].acceptance_rate);
+    CHECK(a.stages[s].evaluations == b.stages[s].evaluations);
+    CHECK(a.stages[s].redraws == b.stages[s].redraws);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the records of the stages are consistent", "[tmcmc][sampler]") {
+  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
+    for (const Boundary boundary : {Boundary::reject, Boundary::redraw}) {
+      for (const CriterionKind kind :
+           {CriterionKind::coefficient_of_variation, CriterionKind::effective_sample_size}) {
+        CAPTURE(static_cast<int>(move), static_cast<int>(boundary), static_cast<int>(kind));
+        Options options = few_samples();
+        options.move = move;
+        options.boundary = boundary;
+        options.criterion.kind = kind;
+        options.criterion.target = kind == CriterionKind::effective_sample_size ? 0.5 : 1.0;
+        const Result result = run_ridge(options);
+        CHECK(result.stop == StopReason::completed);
+        REQUIRE(result.stages.size() > 4);
+        double beta = 0.0;
+        double log_evidence = 0.0;
+        Index evaluations = options.samples;
+        Index stage = 0;
+        for (const StageRecord& record : result.stages) {
+          CAPTURE(++stage);
+          const bool last = stage == static_cast<Index>(result.stages.size());
+          CHECK(record.stage == stage);
+          CHECK(record.beta > beta);
+          CHECK(record.beta == (last ? 1.0 : beta + record.step));
+          CHECK_THAT(record.step, WithinAbs(record.beta - beta, rounding));
+          const double half = 0.5 * static_cast<double>(options.samples);
+          if (last) {
+            CHECK(record.effective_sample_size >= half);
+            CHECK(record.coefficient_of_variation <= 1.0);
+          } else {
+            CHECK_THAT(record.effective_sample_size, WithinRel(half, 1e-10));
+            CHECK_THAT(record.coefficient_of_variation, WithinRel(1.0, 1e-10));
+          }
+          CHECK(record.feasible == options.samples);
+          CHECK(record.distinct_ancestors > options.samples / 5);
+          CHECK(record.distinct_ancestors < options.samples);
+          CHECK(record.acceptance_rate > 0.0);
+          CHECK(record.acceptance_rate < 1.0);
+          CHECK(record.transition_evaluations > 0);
+          CHECK(record.transition_evaluations <= 25);
+          const Index proposals =
+              options.samples * (move == MoveKind::growing_chains ? 1 : options.move_steps);
+          CHECK(record.evaluations <= proposals);
+          CHECK((boundary == Boundary::reject || record.evaluations == proposals));
+          CHECK((boundary == Boundary::redraw || record.redraws == 0));
+          beta = record.beta;
+          log_evidence += record.log_evidence_increment;
+          evaluations += record.evaluations;
+        }
+        CHECK(beta == 1.0);
+        CHECK(result.final.beta == 1.0);
+        CHECK(result.final.log_evidence == log_evidence);
+        CHECK(result.final.evaluations == evaluations);
+        CHECK(result.final.stage == stage);
+        CHECK(result.final.points.rows() == options.samples);
+        CHECK(result.final.points.cols() == 3);
+        Eigen::VectorXd again(options.samples);
+        ridge().log_likelihood(result.final.points, again);
+        CHECK((again == result.final.log_likelihood));
+        const auto& p = result.final.points.array();
+        CHECK((p >= -5.0 && p <= 5.0).all());
+      }
+    }
+  }
+}
+
+TEST_CASE("the likelihood is evaluated as often as the records say", "[tmcmc][sampler]") {
+  std::atomic<Index> rows{0};
+  const Problem problem = ridge();
+  const Problem counting = {
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+        rows += points.rows();
+        problem.log_likelihood(points, values);
+      },
+      problem.prior};
+  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
+    rows = 0;
+    Options options = few_samples();
+    options.move = move;
+    CHECK(tmcmc::run(counting, options, {.seed = 5}).final.evaluations == rows);
+  }
+}
+
+TEST_CASE("the observer sees each stage once, with the population after it", "[tmcmc][sampler]") {
+  std::vector<StageRecord> seen;
+  State last;
+  const Result result =
+      tmcmc::run(ridge(), few_samples(), {.seed = 5}, [&](const StageRecord& r, const State& s) {
+        seen.push_back(r);
+        last = s;
+        CHECK(r.stage == s.stage);
+        CHECK(r.beta == s.beta);
+      });
+  REQUIRE(seen.size() == result.stages.size());
+  for (std::size_t s = 0; s < seen.size(); ++s) {
+    CHECK(seen[s].stage == static_cast<Index>(s) + 1);
+    CHECK(seen[s].beta == result.stages[s].beta);
+    CHECK(seen[s].log_evidence_increment == result.stages[s].log_evidence_increment);
+  }
+  CHECK((last.points == result.final.points));
+  CHECK(last.log_evidence == result.final.log_evidence);
+  check_same_bits(result, run_ridge(few_samples()));  // and it changes nothing
+}
+
+TEST_CASE("init and advance by hand make the run", "[tmcmc][sampler]") {
+  const Problem problem = ridge();
+  const Options options = few_samples();
+  const StreamKey key{.seed = 5};
+  tmcmc::Workspace work(problem, options, key);
+  State state = tmcmc::initial_state(problem, options, key);
+  CHECK(state.beta == 0.0);
+  CHECK(state.log_evidence == 0.0);
+  CHECK(state.evaluations == options.samples);
+  CHECK((state.points == problem.prior.sample(options.samples, key)));
+  while (state.beta < 1.0) {
+    State next;
+    tmcmc::advance(
+        problem, options, key,
+        tmcmc::choose_step(tmcmc::as_span(state.log_likelihood), 1.0 - state.beta, options.criterion), state,
+        next, work);
+    state = next;
+  }
+  const Result result = run_ridge(options);
+  CHECK((state.points == result.final.points));
+  CHECK(state.log_evidence == result.final.log_evidence);
+}
+
+TEST_CASE("neither threads nor batches change a bit of a run", "[tmcmc][sampler]") {
+  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
+    for (const Boundary boundary : {Boundary::reject, Boundary::redraw}) {
+      Options options = few_samples();
+      options.move = move;
+      options.boundary = boundary;
+      const Result reference = run_ridge(options);
+      for (const int threads : {1, 2, 3}) {
+        for (const Index batch_rows : {0, 1, 50, 1000}) {
+          CAPTURE(static_cast<int>(move), static_cast<int>(boundary), threads, batch_rows);
+          options.threads = threads;
+          options.batch_rows = batch_rows;
+          check_same_bits(run_ridge(options), reference);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("runs that differ in any field of their key differ", "[tmcmc][sampler]") {
+  const Options options = few_samples();
+  const Result reference = run_ridge(options, {.seed = 5});
+  check_same_bits(run_ridge(options, {.seed = 5}), reference);
+  for (const StreamKey& key : {StreamKey{.seed = 6}, StreamKey{.seed = 5, .study = 1},
+                               StreamKey{.seed = 5, .arm = 1}, StreamKey{.seed = 5, .run = 1}}) {
+    const Result other = run_ridge(options, key);
+    CHECK((other.final.points.array() != reference.final.points.array()).all());
+    CHECK(other.final.log_evidence != reference.final.log_evidence);
+    CHECK((tmcmc::initial_state(ridge(), options, key).points.array() !=
+           tmcmc::initial_state(ridge(), options, {.seed = 5}).points.array())
+              .all());
+  }
+}
+
+TEST_CASE("no stage uses the random numbers of another", "[tmcmc][sampler]") {
+  // A flat likelihood in a box that no proposal leaves: every step is accepted, and its displacements are the
+  // normals of the stage.
+  const Problem flat = {by_rows([](const auto&) { return 0.0; }),
+                        BoxPrior(Eigen::VectorXd::Constant(1, -1.0), Eigen::VectorXd::Constant(1, 1.0))};
+  Options options;
+  options.samples = 50;
+  options.move_steps = 1;
+  options.proposal_scale = 1e-6;
+  State before = tmcmc::initial_state(flat, options, {.seed = 5});
+  const std::vector<double> start(before.points.col(0).begin(), before.points.col(0).end());
+  std::vector<std::vector<double>> displacements;
+  static_cast<void>(tmcmc::run(flat, options, {.seed = 5}, fixed_schedule({0.25, 0.5, 0.75, 1.0}),
+                               [&](const StageRecord& record, const State& state) {
+                                 CHECK(record.acceptance_rate > 0.9);
+                                 std::vector<double> moved;
+                                 for (const double x :
+                                      state.points.col(0)) {  // from the nearest earlier point
+                                   double nearest = 10.0;
+                                   for (const double y : before.points.col(0)) {
+                                     nearest = std::fabs(x - y) < std::fabs(nearest) ? x - y : nearest;
+                                   }
+                                   moved.push_back(nearest);
+                                 }
+                                 displacements.push_back(moved);
+                                 before = state;
+                               }));
+  REQUIRE(displacements.size() == 4);
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = a + 1; b < 4; ++b) {
+      double products = 0.0;
+      double squares_a = 0.0;
+      double squares_b = 0.0;
+      for (std::size_t i = 0; i < 50; ++i) {
+        products += displacements[a][i] * displacements[b][i];
+        squares_a += displacements[a][i] * displacements[a][i];
+        squares_b += displacements[b][i] * displacements[b][i];
+      }
+      // 4 standard errors of a correlation of 50 pairs; the same numbers again would give almost 1
+      CHECK(std::fabs(products) < 4.0 / std::sqrt(50.0) * std::sqrt(squares_a * squares_b));
+    }
+  }
+}
+
+TEST_CASE("a constant added to the log-likelihood changes no bit of the samples and moves the evidence by it",
+          "[tmcmc][sampler]") {
+  for (const CriterionKind kind :
+       {CriterionKind::coefficient_of_variation, CriterionKind::effective_sample_size}) {
+    CAPTURE(static_cast<int>(kind));
+    Options options = few_samples();
+    options.samples = 1000;
+    options.criterion.kind = kind;
+    options.criterion.target = kind == CriterionKind::effective_sample_size ? 0.5 : 1.0;
+    const Result reference = tmcmc::run(ridge_on_a_grid(0.0), options, {.seed = 5});
+    for (const double constant : {1000.0, -4096.0}) {
+      CAPTURE(constant);
+      const Result shifted = tmcmc::run(ridge_on_a_grid(constant), options, {.seed = 5});
+      CHECK((shifted.final.points == reference.final.points));
+      REQUIRE(shifted.stages.size() == reference.stages.size());
+      for (std::size_t s = 0; s < shifted.stages.size(); ++s) {
+        CHECK(shifted.stages[s].beta == reference.stages[s].beta);
+      }
+      CHECK_THAT(shifted.final.log_evidence - reference.final.log_evidence,
+                 WithinAbs(constant, rounding * std::fabs(constant)));
+    }
+  }
+}
+
+TEST_CASE("a constant that cannot be added exactly changes the run by rounding alone", "[tmcmc][sampler]") {
+  const Problem problem = ridge();
+  const Problem shifted = {
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+        problem.log_likelihood(points, values);
+        values.array() += 1000.0 / 3.0;
+      },
+      problem.prior};
+  const Result a = tmcmc::run(problem, few_samples(), {.seed = 5});
+  const Result b = tmcmc::run(shifted, few_samples(), {.seed = 5});
+  REQUIRE(a.stages.size() == b.stages.size());
+  CHECK((a.final.points - b.final.points).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK_THAT(b.final.log_evidence - a.final.log_evidence, WithinAbs(1000.0 / 3.0, 1e-9));
+}
+
+TEST_CASE("a fixed schedule with the temperatures of an adaptive run repeats it", "[tmcmc][sampler]") {
+  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
+    Options options = few_samples();
+    options.move = move;
+    const Result adaptive = run_ridge(options);
+    std::vector<double> betas;
+    for (const StageRecord& record : adaptive.stages) {
+      betas.push_back(record.beta);
+    }
+    const Result fixed = tmcmc::run(ridge(), options, {.seed = 5}, fixed_schedule(betas));
+    CHECK(fixed.stop == StopReason::completed);
+    REQUIRE(fixed.stages.size() == adaptive.stages.size());
+    for (std::size_t s = 0; s < betas.size(); ++s) {
+      CHECK(fixed.stages[s].beta == betas[s]);
+      CHECK_THAT(fixed.stages[s].effective_sample_size,
+                 WithinRel(adaptive.stages[s].effective_sample_size, 1e-9));
+      CHECK_THAT(fixed.stages[s].coefficient_of_variation,
+                 WithinRel(adaptive.stages[s].coefficient_of_variation, 1e-9));
+    }
+    // A step is a difference of rounded temperatures here, so that the samples agree to rounding.
+    CHECK((fixed.final.points - adaptive.final.points).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK_THAT(fixed.final.log_evidence, WithinAbs(adaptive.final.log_evidence, 1e-9));
+  }
+}
+
+TEST_CASE("a fixed schedule has to ascend to 1", "[tmcmc][sampler]") {
+  CHECK_NOTHROW(fixed_schedule({1.0}));
+  CHECK_NOTHROW(fixed_schedule({1e-300, 0.5, 1.0}));
+  for (const std::vector<double>& betas : std::vector<std::vector<double>>{{},
+                                                                           {0.5},
+                                                                           {0.0, 1.0},
+                                                                           {-0.5, 1.0},
+                                                                           {0.5, 0.5, 1.0},
+                                                                           {0.6, 0.5, 1.0},
+                                                                           {0.5, 1.0, 2.0},
+                                                                           {0.5, 1.0, 1.0},
+                                                                           {not_a_number, 1.0},
+                                                                           {0.5, not_a_number, 1.0},
+                                                                           {not_a_number}}) {
+    CHECK_THROWS_AS(fixed_schedule(betas), std::invalid_argument);
+    CHECK_THROWS_WITH(fixed_schedule(betas), Contains("fixed_schedule"));
+  }
+}
+
+TEST_CASE("the stage cap ends a run that makes no progress", "[tmcmc][sampler]") {
+  Options options = few_samples();
+  options.criterion = tmcmc::effective_sample_size_rule(1.0);  // what the published TMCMC-II script solves
+  options.minimum_step = 0.0;
+  options.max_stages = 20;
+  const Result result = run_ridge(options);
+  CHECK(result.stop == StopReason::stage_limit);
+  CHECK(result.stages.size() == 20);
+  CHECK(result.final.beta == 0.0);
+  CHECK(result.final.log_evidence == 0.0);
+  CHECK(result.final.stage == 20);
+  for (const StageRecord& record : result.stages) {
+    CHECK(record.step == 0.0);
+    CHECK(record.log_evidence_increment == 0.0);
+  }
+}
+
+TEST_CASE("the stage cap ends a run that is under way", "[tmcmc][sampler]") {
+  Options options = few_samples();
+  const Result complete = run_ridge(options);
+  options.max_stages = 3;
+  const Result cut = run_ridge(options);
+  CHECK(cut.stop == StopReason::stage_limit);
+  REQUIRE(cut.stages.size() == 3);
+  CHECK(cut.final.beta == complete.stages[2].beta);
+  options.max_stages = static_cast<Index>(complete.stages.size());
+  CHECK(run_ridge(options).stop == StopReason::completed);
+}
+
+TEST_CASE("the minimum step ends a run whose steps are below it", "[tmcmc][sampler]") {
+  Options options = few_samples();
+  options.criterion = tmcmc::effective_sample_size_rule(1.0);
+  const Result none = run_ridge(options);  // the default minimum is positive
+  CHECK(none.stop == StopReason::step_too_small);
+  CHECK(none.stages.empty());
+  CHECK(none.final.beta == 0.0);
+  CHECK((none.final.points == tmcmc::initial_state(ridge(), options, {.seed = 5}).points));
+
+  options = few_samples();
+  const Result complete = run_ridge(options);
+  options.minimum_step = 0.5 * (complete.stages[0].step + complete.stages[1].step);
+  REQUIRE(complete.stages[0].step < complete.stages[1].step);
+  CHECK(run_ridge(options).stop == StopReason::step_too_small);
+  options.minimum_step = 0.99 * complete.stages[0].step;
+  CHECK(run_ridge(options).stop == StopReason::completed);
+  options.minimum_step = 0.999999;  // does not hold for a step that reaches 1
+  CHECK(tmcmc::run(ridge(), options, {.seed = 5}, fixed_schedule({1.0})).stop == StopReason::completed);
+}
+
+TEST_CASE("steps of 1e-10 are no obstacle", "[tmcmc][sampler]") {
+  // The penalty of the published scripts on most of the box.
+  const Problem problem = {by_rows([](const auto& x) { return x[0] > 1.0 ? -1e10 : -50.0 * x[0]; }),
+                           BoxPrior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 8.0))};
+  Options options = few_samples();
+  options.criterion.counted = Counted::all;
+  options.infeasible_level = -1e10;
+  const Result result = tmcmc::run(problem, options, {.seed = 5});
+  CHECK(result.stop == StopReason::completed);
+  CHECK(result.stages.front().step > 5e-11);
+  CHECK(result.stages.front().step < 5e-10);
+  CHECK(result.stages.front().feasible < 50);
+  CHECK(result.stages.back().feasible == options.samples);
+  CHECK(result.final.points.maxCoeff() <= 1.0);
+}
+
+TEST_CASE("a prior in which nothing is feasible ends with an error", "[tmcmc][sampler]") {
+  const BoxPrior prior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  const Problem excluded = {by_rows([](const auto&) { return -infinity; }), prior};
+  CHECK_THROWS_AS(tmcmc::run(excluded, few_samples(), {}), SamplingError);
+  CHECK_THROWS_AS(tmcmc::run(excluded, few_samples(), {}), tmcmc::InfeasiblePriorError);
+  CHECK_THROWS_WITH(tmcmc::run(excluded, few_samples(), {}), Contains("203 draws") && Contains("feasible"));
+
+  const Problem penalised = {by_rows([](const auto&) { return -1e10; }), prior};
+  Options options = few_samples();
+  CHECK_NOTHROW(tmcmc::run(penalised, options, {}));  // a constant likelihood, as far as the sampler can know
+  options.infeasible_level = -1e10;
+  CHECK_THROWS_AS(tmcmc::run(penalised, options, {}), tmcmc::InfeasiblePriorError);
+}
+
+TEST_CASE("a criterion that too few feasible samples can meet ends with an error", "[tmcmc][sampler]") {
+  const Problem mostly_excluded = {by_rows([](const auto& x) { return x[0] < 0.2 ? -x[0] : -infinity; }),
+                                   BoxPrior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1))};
+  Options options = few_samples();
+  CHECK(tmcmc::run(mostly_excluded, options, {}).stop == StopReason::completed);
+  options.criterion.counted = Counted::all;
+  CHECK_THROWS_AS(tmcmc::run(mostly_excluded, options, {}), SamplingError);
+  CHECK_THROWS_WITH(tmcmc::run(mostly_excluded, options, {}),
+                    Contains("stage 1") && Contains("of 203") && Contains("Criterion::counted"));
+}
+
+TEST_CASE("a likelihood of NaN or plus infinity ends the run, naming the point", "[tmcmc][sampler]") {
+  const BoxPrior prior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  for (const double bad : {not_a_number, infinity}) {
+    const Problem at_once = {by_rows([=](const auto& x) { return x[0] > 0.5 ? bad : 0.0; }), prior};
+    CHECK_THROWS_AS(tmcmc::run(at_once, few_samples(), {}), SamplingError);
+    CHECK_THROWS_WITH(tmcmc::run(at_once, few_samples(), {}), Contains(" at (0."));
+    // In a gap that no prior draw hits but some proposal does.
+    const auto initial =
+        tmcmc::initial_state(Problem{by_rows([](const auto&) { return 0.0; }), prior}, few_samples(), {});
+    std::vector<double> drawn(initial.points.col(0).begin(), initial.points.col(0).end());
+    const Problem later = {by_rows([=](const auto& x) {
+                             return std::find(drawn.begin(), drawn.end(), x[0]) == drawn.end() ? bad : -x[0];
+                           }),
+                           prior};
+    CHECK_THROWS_AS(tmcmc::run(later, few_samples(), {}), SamplingError);
+  }
+}
+
+TEST_CASE("an exception of the likelihood reaches the caller, from any thread", "[tmcmc][sampler]") {
+  std::atomic<int> calls{0};
+  const Problem problem = {
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+        if (++calls > 5) {
+          throw std::domain_error("model failed");
+        }
+        values = -points.col(0);
+      },
+      BoxPrior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1))};
+  for (const int threads : {1, 3}) {
+    calls = 0;
+    Options options = few_samples();
+    options.threads = threads;
+    options.batch_rows = 10;
+    CHECK_THROWS_AS(tmcmc::run(problem, options, {}), std::domain_error);
+  }
+}
+
+TEST_CASE("two samples run", "[tmcmc][sampler]") {
+  Options options;
+  options.samples = 2;
+  options.criterion = tmcmc::effective_sample_size_rule(0.9);
+  const Result result = run_ridge(options);
+  CHECK(result.stop == StopReason::completed);
+  CHECK(result.final.points.rows() == 2);
+}
+
+TEST_CASE("a constant likelihood takes one stage and has evidence of its value", "[tmcmc][sampler]") {
+  const Problem flat = {by_rows([](const auto&) { return -7.5; }),
+                        BoxPrior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1))};
+  const Result result = tmcmc::run(flat, few_samples(), {});
+  CHECK(result.stages.size() == 1);
+  CHECK_THAT(result.final.log_evidence, WithinAbs(-7.5, rounding));
+}
+
+TEST_CASE("options out of range are refused by name", "[tmcmc][sampler]") {
+  const auto refused = [](auto change, const char* field) {
+    Options options;
+    change(options);
+    CHECK_THROWS_AS(options.validate(), std::invalid_argument);
+    CHECK_THROWS_WITH(options.validate(), Contains(field));
+    CHECK_THROWS_AS(run_ridge(options), std::invalid_argument);
+  };
+  CHECK_NOTHROW(Options{}.validate());
+  refused([](Options& o) { o.samples = 1; }, "options.samples = 1");
+  refused([](Options& o) { o.move_steps = 0; }, "options.move_steps = 0");
+  for (const double scale : {0.0, -0.2, infinity, not_a_number}) {
+    refused([=](Options& o) { o.proposal_scale = scale; }, "options.proposal_scale");
+  }
+  refused([](Options& o) { o.max_redraws = 0; }, "options.max_redraws = 0");
+  refused([](Options& o) { o.max_stages = 0; }, "options.max_stages = 0");
+  for (const double step : {-1e-9, 1.0, not_a_number}) {
+    refused([=](Options& o) { o.minimum_step = step; }, "options.minimum_step");
+  }
+  refused([](Options& o) { o.threads = 0; }, "options.threads = 0");
+  refused([](Options& o) { o.batch_rows = -1; }, "options.batch_rows = -1");
+  refused([](Options& o) { o.criterion.target = 0.0; }, "criterion.target");
+  refused([](Options& o) { o.criterion = tmcmc::effective_sample_size_rule(1.1); }, "criterion.target = 1.1");
+}
