@@ -10,7 +10,7 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures compare test verify bench clean
+.PHONY: help deps build all results figures compare test verify identical bench clean
 .SECONDARY:
 
 help:
@@ -22,6 +22,7 @@ help:
 	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
 	@echo 'make test      build and run the tests'
 	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
+	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
 	@echo 'make clean     remove build/ and what is not committed'
 	@echo 'One file, e.g.: make figures/fig3_pboxes.pdf'
@@ -178,7 +179,8 @@ compare: $(BIN)/compare_published $(COMPARED) $(PRINTED)
 # ---------------------------------------------------------------- figures
 
 FIGURES := fig1_rig fig2_phase_angle fig3_pboxes fig4_areas_and_iterations fig5_tempering \
-  fig6_exact_posterior fig7_pbox_floor fig8_model_validation
+  fig6_exact_posterior fig7_pbox_floor fig8_model_validation \
+  fig9_null_distributions fig10_iteration_tables fig11_readings
 FIGURE_FILES := $(foreach f,$(FIGURES),$(FIG)/$(f).pdf $(FIG)/$(f).png)
 
 figures: $(FIGURE_FILES)
@@ -192,6 +194,9 @@ DATA_fig6_exact_posterior := $(addprefix $(GEN)/,exact_posterior_marginals.csv e
   least_squares_baseline.csv)
 DATA_fig7_pbox_floor := $(GEN)/pbox_floor_pbox.csv $(GEN)/fig3_pboxes.csv
 DATA_fig8_model_validation := $(GEN)/model_validation.csv $(GEN)/model_validation_errors.csv
+DATA_fig9_null_distributions := $(GEN)/fig9_null_distributions.csv $(GEN)/fig9_null_distributions_printed.csv
+DATA_fig10_iteration_tables := $(GEN)/fig9_null_distributions_counts.csv
+DATA_fig11_readings := $(GEN)/readings.csv $(PUB)/table3_pbox_area.csv
 
 define figure_rule
 $(FIG)/$(1).pdf $(FIG)/$(1).png &: figures/$(1).gp figures/style.gp figures/draw $(DATA_$(1)) | $(FIG)/.
@@ -227,6 +232,9 @@ bench: $(BUILD)/.built
 	@mkdir -p build/bench
 	$(BIN)/benchmarks --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
 	  --benchmark_out=build/bench/benchmarks.json --benchmark_out_format=json
+
+identical: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
+	tools/identical_bytes
 
 clean:
 	rm -rf build $(GEN)/sampling_study_samples.csv $(GEN)/sampling_study_stages.csv

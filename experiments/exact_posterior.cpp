@@ -212,10 +212,9 @@ int main(int argc, char** argv) {
                    "median", "97.5 %", "Laplace mode +- sd", "least squares");
     for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
       const auto& exact = marginal(posterior, p);
-      std::vector<std::string> quantiles;
-      for (const double level : quantile_levels) {
-        quantiles.push_back(digits(exact.quantile(level)));
-      }
+      std::vector<std::string> quantiles(quantile_levels.size());
+      std::transform(quantile_levels.begin(), quantile_levels.end(), quantiles.begin(),
+                     [&](double level) { return digits(exact.quantile(level)); });
       program.report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13.5f}\n",
                      parameter_columns[p], exact.mean(), exact.standard_deviation(), exact.quantile(0.025),
                      exact.quantile(0.5), exact.quantile(0.975),

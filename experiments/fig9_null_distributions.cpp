@@ -62,26 +62,24 @@ int main(int argc, char** argv) {
     }
     for (const auto& column : printed.counts) {
       const auto of_sampler = study::studies_of(studies, column.sampler);
-      std::map<std::int64_t, std::map<std::int64_t, double>>
-          shares;  // iterations -> runs -> share of the studies
+      std::map<std::int64_t, std::map<std::int64_t, double>> studies_with;  // iterations -> runs -> studies
       for (const auto& cell : column.counts) {
-        shares[cell.first];
+        studies_with[cell.first];
       }
       for (const auto& s : of_sampler) {
         for (const auto& cell : s.iterations) {
-          shares[cell.first];
+          studies_with[cell.first];
         }
       }
-      for (auto& [iterations, by_runs] : shares) {
+      for (auto& [iterations, by_runs] : studies_with) {
         for (const auto& s : of_sampler) {
           const auto found = s.iterations.find(iterations);
-          by_runs[found == s.iterations.end() ? 0 : found->second] +=
-              1.0 / static_cast<double>(of_sampler.size());
+          by_runs[found == s.iterations.end() ? 0 : found->second] += 1.0;
         }
         const auto mark = column.counts.find(iterations);
-        for (const auto& [runs, share] : by_runs) {
+        for (const auto& [runs, number] : by_runs) {
           if (counts_csv) {
-            counts_csv->row(column.sampler, iterations, runs, share,
+            counts_csv->row(column.sampler, iterations, runs, number / static_cast<double>(of_sampler.size()),
                             mark == column.counts.end() ? 0 : mark->second);
           }
         }

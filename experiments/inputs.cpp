@@ -221,7 +221,8 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
   PrintedTables printed;
   const auto areas = io::CsvTable::read(table3);
   const auto samplers = areas.text("sampler");
-  for (const std::size_t parameter : {friction::friction_force, friction::natural_frequency}) {
+  for (const std::size_t parameter :
+       {std::size_t{friction::friction_force}, std::size_t{friction::natural_frequency}}) {
     const auto& column = parameter_columns[parameter];
     const auto values = areas.numbers(column);
     for (std::size_t row = 0; row < samplers.size(); ++row) {

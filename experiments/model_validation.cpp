@@ -146,6 +146,7 @@ Beyond integrate_beyond(const friction::Observations& observations, double drivi
                         const estimation::Interval& force, const estimation::Interval& noise,
                         double log_mass_below, double centre) {
   std::vector<friction::ResponseConstants> constants;
+  constants.reserve(observations.size());
   for (const double r : observations.measured_ratio) {
     constants.push_back(friction::response_constants(r, {.driving_force_n = driving_force_n}));
   }

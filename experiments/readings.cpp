@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   Program program("readings", "Effect of each reading of the paper on every printed number.");
   InputFiles inputs;
   RunOptions run_options;
-  long studies = 20;
+  long studies = 40;
   long samples = 1000;
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");

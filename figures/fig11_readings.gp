@@ -14,8 +14,8 @@ own(i, what) = strcol('sampler') eq word(samplers, i) ? column(what) : NaN
 # A reading has two rows, one a sampler, drawn above and below its name.
 row(n) = int(n) / 2 + 1
 side(i) = i == TMCMC ? -0.17 : 0.17
-name(s) = s eq 'infeasible -inf' ? 'infeasible −∞' : s[1:8] eq 'omega_n ' ? '{/:Italic ω}_n '.s[9:] : strstrt(s, '_') ? \
-    s[1:strstrt(s, '_') - 1].'\_'.name(s[strstrt(s, '_') + 1:]) : s
+plain(s) = strstrt(s, '_') ? s[1:strstrt(s, '_') - 1].'\_'.plain(s[strstrt(s, '_') + 1:]) : s
+name(s) = s eq 'infeasible -inf' ? 'infeasible −∞' : s[1:8] eq 'omega_n ' ? '{/:Italic ω}_n '.s[9:] : plain(s)
 colour(i) = i == TMCMC ? blue : vermillion
 full(i) = i == TMCMC ? 7 : 9
 
@@ -27,7 +27,8 @@ set border 1
 set arrow 1 from graph 0, first presets + 0.5 to graph 1, first presets + 0.5 nohead back lc rgb grey lw 0.6
 
 # The curves of the first two panels.
-AREAS = "for [i = 1:2] printed_areas using (own(i, parameter)):(0.4):(0):(rows + 0.2) with vectors nohead ls i lw 0.8, ".\
+AREAS = "for [i = 1:2] printed_areas using (own(i, parameter)):(0.4):(0):(rows + 0.2) ".\
+    "with vectors nohead ls i lw 0.8, ".\
     "for [i = 1:2] readings using (own(i, area.'_low')):(row(column(0)) + side(i)):".\
     "(column(area.'_high') - column(area.'_low')):(0) with vectors nohead lw 1.8 lc rgb colour(i), ".\
     "for [i = 1:2] readings using (own(i, area.'_median')):(row(column(0)) + side(i)) with points pt full(i) ".\

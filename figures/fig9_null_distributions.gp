@@ -1,5 +1,6 @@
 # What a repetition of the study gives: empirical distribution functions of the p-box areas over the replicated studies,
 # for both samplers; below them the central 95 % of the studies and the printed value, with its two-sided p.
+# The steps of the functions are too fine to show: their tops are joined by lines.
 width = 17.4
 height = 9.0
 load 'figures/style.gp'
@@ -72,7 +73,8 @@ do for [panel = 1:2] {
        for [i = 1:2] marks using (own(i, name, 'low')):(i):(column('high') - column('low')):(0) with vectors nohead \
            lw 3 lc rgb colour(i), \
        for [i = 1:2] marks using (own(i, name, 'printed')):(i) with points pt full(i) ps 0.95 lc rgb printed, \
-       for [i = 1:2] marks using (own(i, name, 'printed')):(i) with points pt hollow(i) ps 0.8 lw 1.1 lc rgb colour(i), \
+       for [i = 1:2] marks using (own(i, name, 'printed')):(i) with points pt hollow(i) ps 0.8 lw 1.1 \
+           lc rgb colour(i), \
        for [i = 1:2] marks using (own(i, name, 'high')):(i):(sprintf('{/:Italic p} = %.2f', column('p'))) \
            with labels left offset 0.8, 0 font ',7.5'
   unset ytics

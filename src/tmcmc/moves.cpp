@@ -47,7 +47,8 @@ void add_scaled(double scale, const Lanes& z, Lanes& x) {
 PORTABLE_MATH_MULTIVERSION
 void check_bounds(const Lanes& x, double low, double high, Lanes& inside) {
   for (std::size_t i = 0; i < lanes; ++i) {
-    inside[i] = (x[i] >= low) & (x[i] <= high) ? inside[i] : 0.0;
+    const double above = x[i] >= low ? inside[i] : 0.0;
+    inside[i] = x[i] <= high ? above : 0.0;
   }
 }
 

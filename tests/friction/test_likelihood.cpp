@@ -86,7 +86,7 @@ double direct_log_likelihood(const Observations& data, const Physics& physics,
 
 }  // namespace
 
-TEST_CASE("log-likelihoods of the published physics, from a run of the published scripts",
+TEST_CASE("log-likelihoods of the published physics against reference values",
           "[friction][likelihood]") {
   const auto reference = test_data::read_columns(TEST_DATA_DIR "/log_likelihood_discrete_bin.csv");
   const auto& expected = reference.at("log_likelihood");

@@ -86,7 +86,7 @@ double largest_quotient(double r, int points) {
 
 }  // namespace
 
-TEST_CASE("phase and limit of the published discretisation, from a run of the published scripts",
+TEST_CASE("phase and limit of the published discretisation against reference values",
           "[friction][response]") {
   const auto reference = test_data::read_columns(TEST_DATA_DIR "/phase_discrete_bin.csv");
   const auto& force = reference.at("friction_force_n");

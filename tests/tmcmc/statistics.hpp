@@ -25,7 +25,7 @@ class Uniforms {
   /// In the open interval (0, 1).
   double operator()() { return (static_cast<double>(generator_() >> 12U) + 0.5) * 0x1p-52; }
   double operator()(double low, double high) { return low + (high - low) * (*this)(); }
-  double normal() {  // the sum of twelve would have no tails
+  double normal() {
     const double radius = std::sqrt(-2.0 * std::log((*this)()));
     return radius * std::cos(6.283185307179586 * (*this)());
   }
