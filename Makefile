@@ -53,6 +53,7 @@ build: $(EXECUTABLES)
 
 # One call of CMake builds them all; each executable then depends on its own source and the libraries alone.
 $(BUILD)/.built: $(LIBRARY_SOURCES) $(EXPERIMENTS:%=experiments/%.cpp)
+	@mkdir -p build
 	cmake --preset release $(CMAKE_FLAGS) >$(BUILD).configure.log 2>&1 || { cat $(BUILD).configure.log; false; }
 	cmake --build --preset release --target experiments
 	@touch $@

@@ -1,6 +1,5 @@
 // The readings of the paper differ in the options that their table names, and in no other.
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <set>

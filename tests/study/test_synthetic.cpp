@@ -1,6 +1,5 @@
 // Observations with known truth.
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "tmcmc/moves.hpp"
+#include "tmcmc/problems.hpp"
 #include "tmcmc/statistics.hpp"
 
 namespace {
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
+using problems::by_rows;
 using statistics::kolmogorov;
 using statistics::kolmogorov_bound;
 using statistics::standard_errors;
@@ -29,17 +31,6 @@ using tmcmc::SamplingError;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// Batch log-likelihood from a function of one row.
-template <class Function>
-LogLikelihood by_rows(Function function) {
-  return [function](const Eigen::Ref<const Eigen::MatrixXd>& points,
-                    Eigen::Ref<Eigen::VectorXd> log_likelihood) {
-    for (Index i = 0; i < points.rows(); ++i) {
-      log_likelihood[i] = function(points.row(i));
-    }
-  };
-}
 
 BoxPrior unit_box(Index d) {
   return {Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d)};

@@ -13,8 +13,6 @@
 namespace {
 
 using Catch::Matchers::Contains;
-using Catch::Matchers::WithinAbs;
-using Catch::Matchers::WithinRel;
 using tmcmc::BoxPrior;
 using tmcmc::Centre;
 using tmcmc::cholesky_factor;

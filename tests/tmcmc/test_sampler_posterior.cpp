@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "tmcmc/problems.hpp"
 #include "tmcmc/sampler.hpp"
 #include "tmcmc/statistics.hpp"
 
@@ -32,12 +33,7 @@ constexpr double bias_constant = 2.0;  // bias of at most this / N posterior sta
 
 template <class Function>
 Problem problem_of(Function function, Eigen::VectorXd lower, Eigen::VectorXd upper) {
-  return {[function](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
-            for (Index i = 0; i < points.rows(); ++i) {
-              values[i] = function(points.row(i));
-            }
-          },
-          BoxPrior(std::move(lower), std::move(upper))};
+  return {problems::by_rows(function), BoxPrior(std::move(lower), std::move(upper))};
 }
 
 std::vector<Result> replicate(const Problem& problem, const Options& options, std::uint64_t seed,

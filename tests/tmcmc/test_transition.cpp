@@ -12,7 +12,6 @@
 namespace {
 
 using Catch::Matchers::Contains;
-using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using tmcmc::choose_step;
 using tmcmc::Counted;
