@@ -25,7 +25,7 @@ enum Parameter : int {
 /// Calls are const and may run at the same time.
 class Likelihood {
  public:
-  /// \param infeasible_log_likelihood  value where some observation's motion is not continuous: minus infinity,   
+  /// \param infeasible_log_likelihood  value where some observation's motion is not continuous: minus infinity,
   ///        or the penalty -1e10 of the published scripts.
   /// \throws std::invalid_argument for invalid observations or physics.
   Likelihood(const Observations& observations, const Physics& physics,

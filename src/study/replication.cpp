@@ -55,7 +55,12 @@ std::vector<StudySummary> run_study(const tmcmc::Problem& problem, const std::ve
 std::string format_iterations(const std::map<tmcmc::Index, tmcmc::Index>& counts) {
   std::string text;
   for (const auto& [iterations, runs] : counts) {
-    text += (text.empty() ? "" : " ") + std::to_string(iterations) + ":" + std::to_string(runs);
+    if (!text.empty()) {
+      text += ' ';
+    }
+    text += std::to_string(iterations);
+    text += ':';
+    text += std::to_string(runs);
   }
   return text;
 }

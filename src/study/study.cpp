@@ -80,6 +80,9 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
 }
 
 Eigen::VectorXd pbox_areas(const std::vector<Run>& runs) {
+  if (runs.empty()) {
+    throw std::invalid_argument("pbox_areas: expected at least one run");
+  }
   const tmcmc::Index d = runs.front().result.final.points.cols();
   Eigen::VectorXd areas(d);
   for (tmcmc::Index j = 0; j < d; ++j) {

@@ -37,6 +37,7 @@ using RunObserver = std::function<void()>;
                                        const StudyOptions& options, const RunObserver& observer = {});
 
 /// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry a parameter.
+/// \throws std::invalid_argument if there is no run.
 [[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs);
 
 /// Number of runs that took each number of iterations (Table 4).

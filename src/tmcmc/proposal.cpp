@@ -44,6 +44,11 @@ Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
     for (Index l = 0; l < k; ++l) {
       pivot -= factor(k, l) * factor(k, l);
     }
+    for (Index j = k; j < d; ++j) {
+      if (!std::isfinite(covariance(j, k))) {
+        pivot = covariance(j, k);
+      }
+    }
     if (!std::isfinite(pivot) || pivot < -rounding * covariance(k, k)) {
       throw SamplingError("the proposal covariance is not positive semidefinite and finite (row " +
                           std::to_string(k) + ")");

@@ -31,25 +31,32 @@ std::vector<Index> chain_lengths(std::span<const Index> ancestors, Index chains)
 /// starts from the one in the row before.
 MoveCounts grow_chains(const MetropolisKernel& kernel, std::span<const Index> ancestors, State& state,
                        Mover& mover) {
-  const std::vector<Index> lengths = chain_lengths(ancestors, state.points.rows());
-  const Index longest = *std::max_element(lengths.begin(), lengths.end());
+  struct Chain {
+    Index row;  // of the next state
+    Index left;
+  };
+  std::vector<Chain> active;
+  Index row = 0;
+  for (const Index length : chain_lengths(ancestors, state.points.rows())) {
+    if (length > 0) {
+      active.push_back({row, length});
+      row += length;
+    }
+  }
   MoveCounts counts;
   std::vector<Index> rows;
-  for (Index k = 0; k < longest; ++k) {
+  while (!active.empty()) {
     rows.clear();
-    Index first = 0;
-    for (const Index length : lengths) {
-      if (length > k) {
-        const Index row = first + k;
-        rows.push_back(row);
-        if (k > 0) {
-          state.points.row(row) = state.points.row(row - 1);
-          state.log_likelihood[row] = state.log_likelihood[row - 1];
-        }
-      }
-      first += length;
+    for (const Chain& chain : active) {
+      rows.push_back(chain.row);
     }
     counts += mover.step(kernel, rows, 0, state.points, state.log_likelihood);
+    std::erase_if(active, [](Chain& chain) { return --chain.left == 0; });
+    for (Chain& chain : active) {
+      ++chain.row;
+      state.points.row(chain.row) = state.points.row(chain.row - 1);
+      state.log_likelihood[chain.row] = state.log_likelihood[chain.row - 1];
+    }
   }
   return counts;
 }
@@ -78,6 +85,7 @@ void Options::validate() const {
   require(max_redraws >= 1, "max_redraws", max_redraws, "at least 1");
   require(max_stages >= 1, "max_stages", max_stages, "at least 1");
   require(minimum_step >= 0.0 && minimum_step < 1.0, "minimum_step", minimum_step, "a number in [0, 1)");
+  require(!std::isnan(infeasible_level), "infeasible_level", infeasible_level, "a number or minus infinity");
   require(threads >= 1, "threads", threads, "at least 1");
   require(batch_rows >= 0, "batch_rows", batch_rows, "a number of rows, or 0 for no limit");
 }
@@ -105,8 +113,8 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   const Index d = problem.prior.dimension();
   StageRecord record;
   record.stage = from.stage + 1;
-  record.step = transition.step;
   record.beta = transition.status == TransitionStatus::final_step ? 1.0 : from.beta + transition.step;
+  record.step = record.beta - from.beta;  // rounded, so that a schedule of the betas repeats the run bit for bit
   record.effective_sample_size = transition.effective_sample_size;
   record.coefficient_of_variation = transition.coefficient_of_variation;
   record.transition_evaluations = transition.evaluations;
@@ -114,8 +122,8 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
 
   work.weights.resize(static_cast<std::size_t>(n));
   WeightSums sums{static_cast<double>(n), 0.0};
-  if (transition.step > 0.0) {
-    sums = relative_weights(as_span(from.log_likelihood), transition.step, work.weights);
+  if (record.step > 0.0) {
+    sums = relative_weights(as_span(from.log_likelihood), record.step, work.weights);
   } else {
     std::fill(work.weights.begin(), work.weights.end(), 1.0);
   }
@@ -164,6 +172,7 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
 Result run(const Problem& problem, const Options& options, const StreamKey& key, const StepRule& rule,
            const Observer& observer) {
   options.validate();
+  require(key.arm < (1U << 24U), "key.arm", key.arm, "a number below 2^24");
   Workspace work(problem, options, key);
   Result result;
   State state = initial_state(problem, options, key);

@@ -16,8 +16,10 @@ namespace tmcmc {
 enum class MoveKind {
   resample_move,  ///< multinomial resampling to N starts, a chain of `move_steps` steps from each, last state
                   ///< kept
-  growing_chains  ///< the paper's wording: N times a chain is picked with probability w_i and its current
-                  ///< state moved by one step; each updated state is kept (move_steps is not used)
+  /// The paper's wording: N times a chain is picked with probability w_i and its current state moved by one step; each
+  /// updated state is kept (move_steps is not used). Biased at any N: the chance that a chain is picked k times or more
+  /// is not proportional to its weight, so that short chains, which have moved little, count too much.
+  growing_chains
 };
 
 struct Options {
@@ -62,7 +64,7 @@ struct StageRecord {
   double beta = 0.0;  ///< after the stage
   double step = 0.0;
   double effective_sample_size = 0.0;     ///< of the weights of the step
-  double coefficient_of_variation = 0.0;  ///< of the weights, with the criterion's deviation and count
+  double coefficient_of_variation = 0.0;  ///< of the weights, as the step rule reports it
   double log_evidence_increment = 0.0;
   double acceptance_rate = 0.0;  ///< of all proposals, those outside the box (Boundary::reject) included
   Index feasible = 0;            ///< samples before the stage with a log-likelihood above infeasible_level

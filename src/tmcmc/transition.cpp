@@ -158,7 +158,11 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
   const auto root = boost::math::tools::toms748_solve(
       [&](double log_step) { return std::max(excess(portable_math::exp(log_step)), -40.0); },
       portable_math::log(low), portable_math::log(high), excess_low, excess_high,
-      [](double a, double b) { return std::fabs(b - a) <= log_step_tolerance; }, iterations);
+      [](double a, double b) {
+        return std::fabs(b - a) <=
+               std::max(log_step_tolerance, 8.0 * std::numeric_limits<double>::epsilon() * std::fabs(a));
+      },
+      iterations);
   if (std::fabs(root.second - root.first) > 1e-9) {
     throw SamplingError("the tempering step was not found to 1e-9 within 200 evaluations");
   }
