@@ -67,10 +67,10 @@ Measurement in_child(long samples, int threads, long observations) {
     const bool written = write(channel[1], &m, sizeof m) == static_cast<ssize_t>(sizeof m);
     _exit(written ? 0 : 1);
   }
+  close(channel[1]);
   Measurement m{};
   const bool read_all = read(channel[0], &m, sizeof m) == static_cast<ssize_t>(sizeof m);
   close(channel[0]);
-  close(channel[1]);
   int status = 0;
   waitpid(child, &status, 0);
   if (!read_all || status != 0) {
@@ -96,7 +96,7 @@ void measure(const char* sweep, long samples, int threads, long observations, do
 
 int main() {
   std::printf("sweep,samples,threads,observations,seconds,microseconds_per_evaluation,bytes_per_sample\n");
-  const double base = in_child(2, 1, 10).peak_bytes;
+  const double base = in_child(64, 1, 10).peak_bytes;
   for (const long samples : {1000L, 3162L, 10000L, 31623L, 100000L, 316228L, 1000000L}) {
     measure("samples", samples, 1, 10, base);
   }
