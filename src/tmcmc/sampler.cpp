@@ -51,9 +51,12 @@ MoveCounts grow_chains(const MetropolisKernel& kernel, std::span<const Index> an
       rows.push_back(chain.row);
     }
     counts += mover.step(kernel, rows, 0, state.points, state.log_likelihood);
-    std::erase_if(active, [](Chain& chain) { return --chain.left == 0; });
     for (Chain& chain : active) {
+      --chain.left;
       ++chain.row;
+    }
+    std::erase_if(active, [](const Chain& chain) { return chain.left == 0; });
+    for (const Chain& chain : active) {
       state.points.row(chain.row) = state.points.row(chain.row - 1);
       state.log_likelihood[chain.row] = state.log_likelihood[chain.row - 1];
     }
