@@ -8,6 +8,7 @@ namespace study {
 
 Reading reading(ReadingName name) {
   Reading r;
+  r.sampler.diagnose = false;  // the published samplers have none, and studies of many runs need the time
   switch (name) {
     case ReadingName::as_published:
       r.sampler.criterion.deviation = tmcmc::Deviation::sample;

@@ -15,6 +15,20 @@ std::string name_run(const Arm& arm, tmcmc::Index index) {
   return arm.name + ", run " + std::to_string(index) + ": ";
 }
 
+const char* reason(tmcmc::StopReason stop) {
+  switch (stop) {
+    case tmcmc::StopReason::stage_limit:
+      return " (max_stages)";
+    case tmcmc::StopReason::step_too_small:
+      return ", since the next step is below minimum_step";
+    case tmcmc::StopReason::budget:
+      return ", since the next would need more than evaluation_budget";
+    case tmcmc::StopReason::completed:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 void StudyOptions::validate() const {
@@ -54,10 +68,8 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
           run.result = tmcmc::run(problem, arm.options, key);
           if (run.result.stop != tmcmc::StopReason::completed) {
             throw tmcmc::SamplingError("ended at beta = " + std::to_string(run.result.final.beta) +
-                                       " after " + std::to_string(run.iterations()) +
-                                       (run.result.stop == tmcmc::StopReason::stage_limit
-                                            ? " stages (max_stages)"
-                                            : " stages, since the next step is below minimum_step"));
+                                       " after " + std::to_string(run.iterations()) + " stages" +
+                                       reason(run.result.stop));
           }
         } catch (const tmcmc::InfeasiblePriorError& error) {
           throw tmcmc::InfeasiblePriorError(name_run(arm, index) + error.what());

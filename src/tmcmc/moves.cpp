@@ -1,56 +1,17 @@
 #include "tmcmc/moves.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 
-#include "portable_math/multiversion.hpp"
 #include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
 
 namespace {
 
-constexpr std::size_t lanes = 64;
-using WordLanes = std::array<std::uint64_t, lanes>;
-using Lanes = std::array<double, lanes>;
-
-PORTABLE_MATH_MULTIVERSION
-void log_uniforms(const WordLanes& words, Lanes& result) {
-  for (std::size_t i = 0; i < lanes; ++i) {
-    result[i] = portable_math::log_positive(uniform_open(words[i]));
-  }
-}
-
-PORTABLE_MATH_MULTIVERSION
-void normals(const WordLanes& radius_a, const WordLanes& radius_b, const WordLanes& angles, Lanes* z) {
-  for (std::size_t i = 0; i < lanes; ++i) {
-    const NormalPair a = normal_pair(radius_a[i], angles[i] >> 32U);
-    const NormalPair b = normal_pair(radius_b[i], angles[i]);
-    z[0][i] = a.first;
-    z[1][i] = a.second;
-    z[2][i] = b.first;
-    z[3][i] = b.second;
-  }
-}
-
-PORTABLE_MATH_MULTIVERSION
-void add_scaled(double scale, const Lanes& z, Lanes& x) {
-  for (std::size_t i = 0; i < lanes; ++i) {
-    x[i] += scale * z[i];
-  }
-}
-
-/// inside[i] &= low <= x[i] <= high
-PORTABLE_MATH_MULTIVERSION
-void check_bounds(const Lanes& x, double low, double high, Lanes& inside) {
-  for (std::size_t i = 0; i < lanes; ++i) {
-    const double above = x[i] >= low ? inside[i] : 0.0;
-    inside[i] = x[i] <= high ? above : 0.0;
-  }
-}
+constexpr std::size_t lanes = ProposalLanes::lanes;
 
 }  // namespace
 
@@ -67,37 +28,15 @@ struct Mover::Block {
       : candidates(rows, dimension),
         candidate_log_likelihood(rows),
         candidate_rows(static_cast<std::size_t>(rows)),
-        log_uniform(static_cast<std::size_t>(rows)),
-        z(static_cast<std::size_t>((dimension + 3) / 4 * 4)),
-        x(static_cast<std::size_t>(dimension)) {}
-
-  /// Standard normals for `count` rows into z, and the uniforms of the acceptance.
-  void draw(const StreamKey& key, const DrawId& id, const std::uint64_t* rows, std::size_t count,
-            Lanes* log_u) {
-    for (std::size_t group = 0; 4 * group < z.size(); ++group) {
-      DrawId place = id;
-      place.block = static_cast<std::uint32_t>(group);
-      for (std::size_t i = 0; i < count; ++i) {
-        place.row = rows[i];
-        const Words w = random_words(key, place);
-        for (std::size_t word = 0; word < 4; ++word) {
-          words[word][i] = w[word];
-        }
-      }
-      if (group == 0 && log_u != nullptr) {
-        log_uniforms(words[0], *log_u);
-      }
-      normals(words[1], words[2], words[3], &z[4 * group]);
-    }
-  }
+        thresholds(static_cast<std::size_t>(rows)),
+        proposals(dimension) {}
 
   Population candidates;  // proposals inside the box, in the order of their rows
   Eigen::VectorXd candidate_log_likelihood;
   std::vector<Index> candidate_rows;
-  std::vector<double> log_uniform;
-  std::array<WordLanes, 4> words{};
-  std::vector<Lanes> z;
-  std::vector<Lanes> x;
+  std::vector<double>
+      thresholds;  // log-uniform less the correction: least log-ratio of the likelihoods to accept
+  ProposalLanes proposals;
 };
 
 Mover::Mover(const LogLikelihood& log_likelihood, const BoxPrior& prior, const StreamKey& key, int threads,
@@ -140,46 +79,31 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
   counts.proposals = end - begin;
   Index candidates = 0;
   DrawId id{.purpose = Purpose::move, .stage = kernel.stage, .draw = draw};
-  std::array<std::uint64_t, lanes> row_ids{};
+  ProposalLanes::RowIds row_ids{};
 
-  const auto propose = [&](std::size_t count) {  // x = theta + L z
-    for (Index j = 0; j < d; ++j) {
-      Lanes& x = block.x[static_cast<std::size_t>(j)];
-      const double* column = points.col(j).data();
-      for (std::size_t i = 0; i < count; ++i) {
-        x[i] = column[row_ids[i]];
-      }
-      for (Index k = 0; k <= j; ++k) {
-        add_scaled(kernel.factor(j, k), block.z[static_cast<std::size_t>(k)], x);
-      }
-    }
+  ProposalLanes& proposals = block.proposals;
+  ProposalLanes::Lanes log_u{};
+  const auto propose = [&](std::size_t count,
+                           ProposalLanes::Lanes* log_uniforms) {  // returns the number inside the box
+    proposals.draw(key_, id, kernel, row_ids, count, log_uniforms);
+    proposals.propose(kernel, prior_, points, row_ids, count);
+    return proposals.check(prior_, count);
   };
-  Lanes inside{};
-  const auto check = [&](std::size_t count) {  // number of proposals inside the box
-    inside.fill(1.0);
+  const auto keep = [&](std::size_t lane, double log_uniform) {
     for (Index j = 0; j < d; ++j) {
-      check_bounds(block.x[static_cast<std::size_t>(j)], prior_.lower()[j], prior_.upper()[j], inside);
+      block.candidates(candidates, j) = proposals.parameter(j)[lane];
     }
-    return static_cast<std::size_t>(
-        std::count(inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(count), 1.0));
-  };
-  const auto keep = [&](std::size_t lane, std::uint64_t row, double log_uniform) {
-    for (Index j = 0; j < d; ++j) {
-      block.candidates(candidates, j) = block.x[static_cast<std::size_t>(j)][lane];
-    }
-    block.candidate_rows[static_cast<std::size_t>(candidates)] = static_cast<Index>(row);
-    block.log_uniform[static_cast<std::size_t>(candidates)] = log_uniform;
+    block.candidate_rows[static_cast<std::size_t>(candidates)] = static_cast<Index>(row_ids[lane]);
+    block.thresholds[static_cast<std::size_t>(candidates)] = log_uniform - proposals.log_correction()[lane];
     ++candidates;
   };
-
-  Lanes log_u{};
   const auto keep_all = [&](std::size_t count) {
     for (Index j = 0; j < d; ++j) {
-      std::copy_n(block.x[static_cast<std::size_t>(j)].begin(), count,
-                  block.candidates.col(j).data() + candidates);
+      std::copy_n(proposals.parameter(j).begin(), count, block.candidates.col(j).data() + candidates);
     }
     std::copy_n(row_ids.begin(), count, block.candidate_rows.begin() + candidates);
-    std::copy_n(log_u.begin(), count, block.log_uniform.begin() + candidates);
+    std::transform(log_u.begin(), log_u.begin() + static_cast<std::ptrdiff_t>(count),
+                   proposals.log_correction().begin(), block.thresholds.begin() + candidates, std::minus<>());
     candidates += static_cast<Index>(count);
   };
   std::array<std::size_t, lanes> outside{};
@@ -190,16 +114,14 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
       row_ids[i] = static_cast<std::uint64_t>(rows == nullptr ? position : rows[position]);
     }
     id.attempt = 0;
-    block.draw(key_, id, row_ids.data(), count, &log_u);
-    propose(count);
-    if (check(count) == count) {
+    if (propose(count, &log_u) == count) {
       keep_all(count);
       continue;
     }
     std::size_t outside_count = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      if (inside[i] != 0.0) {
-        keep(i, row_ids[i], log_u[i]);
+      if (proposals.inside(i)) {
+        keep(i, log_u[i]);
       } else {
         outside[outside_count++] = i;
       }
@@ -207,7 +129,6 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
     if (kernel.boundary == Boundary::reject) {
       continue;
     }
-    Lanes pending_log_u = log_u;
     while (outside_count > 0) {  // draw the rest again, packed to the front
       if (static_cast<Index>(++id.attempt) > kernel.max_redraws) {
         throw SamplingError("a proposal fell outside the prior box " + std::to_string(kernel.max_redraws) +
@@ -215,16 +136,14 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
       }
       for (std::size_t k = 0; k < outside_count; ++k) {
         row_ids[k] = row_ids[outside[k]];
-        pending_log_u[k] = pending_log_u[outside[k]];
+        log_u[k] = log_u[outside[k]];
       }
       counts.redraws += static_cast<Index>(outside_count);
-      block.draw(key_, id, row_ids.data(), outside_count, nullptr);
-      propose(outside_count);
-      check(outside_count);
+      propose(outside_count, nullptr);
       std::size_t still_outside = 0;
       for (std::size_t k = 0; k < outside_count; ++k) {
-        if (inside[k] != 0.0) {
-          keep(k, row_ids[k], pending_log_u[k]);
+        if (proposals.inside(k)) {
+          keep(k, log_u[k]);
         } else {
           outside[still_outside++] = k;
         }
@@ -242,7 +161,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
   for (Index k = 0; k < candidates; ++k) {
     const Index row = block.candidate_rows[static_cast<std::size_t>(k)];
     const double log_ratio = kernel.beta * (block.candidate_log_likelihood[k] - log_likelihood[row]);
-    if (block.log_uniform[static_cast<std::size_t>(k)] <= log_ratio) {
+    if (block.thresholds[static_cast<std::size_t>(k)] <= log_ratio) {
       for (Index j = 0; j < d; ++j) {
         points(row, j) = block.candidates(k, j);
       }

@@ -5,24 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "tmcmc/prior.hpp"
+#include "tmcmc/proposals.hpp"
 
 namespace tmcmc {
-
-/// What happens to a proposal outside the prior box.
-enum class Boundary {
-  reject,  ///< the chain stays; leaves the tempered posterior invariant
-  redraw   ///< drawn again until inside, without the correction of the acceptance ratio (published scripts)
-};
-
-/// The Metropolis kernel of one stage.
-struct MetropolisKernel {
-  Eigen::MatrixXd factor;  ///< lower Cholesky factor of the proposal covariance
-  double beta = 1.0;
-  Boundary boundary = Boundary::reject;
-  Index max_redraws = 100000;
-  std::uint32_t stage = 0;  ///< enters the random stream
-};
 
 struct MoveCounts {
   Index proposals = 0;
@@ -44,9 +29,9 @@ class Mover {
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
 
-  /// One Metropolis step of the chains that live in the given rows, in place: theta' = theta + L z, accepted
-  /// with probability min(1, (L(theta') / L(theta))^beta). The draws depend on key, stage, row and `draw`
-  /// alone.
+  /// One Metropolis step of the chains that live in the given rows, in place: a proposal theta' of the kernel is accepted
+  /// with probability min(1, (L(theta') / L(theta))^beta c), c being the correction for coordinates and proposal
+  /// densities. The draws depend on key, stage, row and `draw` alone.
   /// \param rows  rows to move, each at most once; empty: all
   /// \throws SamplingError for a log-likelihood of NaN or plus infinity, or if max_redraws is exceeded.
   MoveCounts step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,

@@ -6,17 +6,24 @@
 
 namespace tmcmc {
 
+Eigen::VectorXd weighted_mean(const Population& points, ConstDoubles weights, double weight_sum) {
+  Eigen::VectorXd mean(points.cols());
+  const double* w = weights.data();
+  for (Index j = 0; j < points.cols(); ++j) {
+    const double* x = points.col(j).data();
+    mean[j] = portable_math::sum_of(weights.size(), [=](std::size_t i) { return w[i] * x[i]; }) / weight_sum;
+  }
+  return mean;
+}
+
 Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weights, double weight_sum,
                                     double scale, Centre centre) {
   const auto n = static_cast<std::size_t>(points.rows());
   const Index d = points.cols();
-  Eigen::VectorXd mean(d);
-  for (Index j = 0; j < d; ++j) {
+  Eigen::VectorXd mean = weighted_mean(points, weights, weight_sum);
+  for (Index j = 0; j < d && centre == Centre::plain_mean; ++j) {
     const double* x = points.col(j).data();
-    const double* w = weights.data();
-    mean[j] = centre == Centre::weighted_mean
-                  ? portable_math::sum_of(n, [=](std::size_t i) { return w[i] * x[i]; }) / weight_sum
-                  : portable_math::sum_of(n, [=](std::size_t i) { return x[i]; }) / static_cast<double>(n);
+    mean[j] = portable_math::sum_of(n, [=](std::size_t i) { return x[i]; }) / static_cast<double>(n);
   }
   Eigen::MatrixXd covariance(d, d);
   for (Index j = 0; j < d; ++j) {

@@ -18,6 +18,10 @@ enum class Centre {
 [[nodiscard]] Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weights,
                                                   double weight_sum, double scale, Centre centre);
 
+/// sum_i w_i theta_i / sum_i w_i, d.
+[[nodiscard]] Eigen::VectorXd weighted_mean(const Population& points, ConstDoubles weights,
+                                            double weight_sum);
+
 /// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a zero
 /// column. Plain loops, since the order of Eigen's sums depends on the instruction set.
 /// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding.

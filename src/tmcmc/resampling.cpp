@@ -1,15 +1,44 @@
 #include "tmcmc/resampling.hpp"
 
+#include <cmath>
+
 namespace tmcmc {
 
-void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-                           std::span<Index> ancestors) {
-  std::vector<double> partial_sums;
-  multinomial_ancestors(weights, key, stage, ancestors, partial_sums);
+namespace {
+
+/// Total weight, and the last sample that has any.
+struct Total {
+  double weight = 0.0;
+  std::size_t last_positive = 0;
+};
+
+Total total_of(ConstDoubles weights) {
+  Total total;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    total.weight += weights[i];
+    total.last_positive = weights[i] > 0.0 ? i : total.last_positive;
+  }
+  return total;
 }
 
-void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-                           std::span<Index> ancestors, std::vector<double>& partial_sums) {
+/// ancestors[k]: the sample at which the cumulative weight reaches threshold(k), which has to ascend with k.
+template <class Threshold>
+void invert(ConstDoubles weights, std::size_t last_positive, std::span<Index> ancestors,
+            Threshold threshold) {
+  std::size_t source = 0;
+  double cumulative = weights[0];
+  for (std::size_t k = 0; k < ancestors.size(); ++k) {
+    const double level = threshold(k);
+    while (cumulative < level && source < last_positive) {
+      cumulative += weights[++source];
+    }
+    ancestors[k] = static_cast<Index>(source);
+  }
+}
+
+/// Sorted uniforms are partial sums of exponential spacings.
+void multinomial(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
+                 std::vector<double>& partial_sums) {
   const std::size_t n = ancestors.size();
   partial_sums.resize(n + 1);
   double sum = 0.0;
@@ -20,21 +49,75 @@ void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint
       partial_sums[i + k] = sum;
     }
   }
-  double total = 0.0;
-  std::size_t last_positive = 0;
+  const Total total = total_of(weights);
+  const double scale = total.weight / sum;
+  invert(weights, total.last_positive, ancestors, [&](std::size_t k) { return scale * partial_sums[k]; });
+}
+
+void stratified(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
+                bool one_uniform) {
+  const Total total = total_of(weights);
+  const double width = total.weight / static_cast<double>(ancestors.size());
+  invert(weights, total.last_positive, ancestors, [&](std::size_t k) {
+    const std::size_t draw = one_uniform ? 0 : k;
+    const Words words = random_words(key, {.purpose = Purpose::resampling, .stage = stage, .row = draw / 4});
+    return width * (static_cast<double>(k) + uniform_open(words[draw % 4]));
+  });
+}
+
+void residual(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
+              ResamplingWorkspace& work) {
+  const double scale = static_cast<double>(ancestors.size()) / total_of(weights).weight;
+  work.residuals.resize(weights.size());
+  std::size_t whole = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    total += weights[i];
-    last_positive = weights[i] > 0.0 ? i : last_positive;
+    const double copies = std::floor(scale * weights[i]);
+    work.residuals[i] = scale * weights[i] - copies;
+    whole += static_cast<std::size_t>(copies);
   }
-  const double scale = total / sum;
-  std::size_t source = 0;
-  double cumulative = weights[0];
-  for (std::size_t i = 0; i < n; ++i) {
-    const double threshold = scale * partial_sums[i];
-    while (cumulative < threshold && source < last_positive) {
-      cumulative += weights[++source];
+  // Rounding can leave a rest without residuals, or whole copies beyond the number asked for.
+  const std::size_t rest = whole < ancestors.size() ? ancestors.size() - whole : 0;
+  work.drawn.resize(rest);
+  if (rest > 0) {
+    const bool any = total_of(work.residuals).weight > 0.0;
+    multinomial(any ? ConstDoubles(work.residuals) : weights, key, stage, work.drawn, work.partial_sums);
+  }
+  std::size_t k = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    auto copies = static_cast<std::size_t>(std::floor(scale * weights[i]));
+    for (; next < rest && work.drawn[next] == static_cast<Index>(i); ++next) {
+      ++copies;
     }
-    ancestors[i] = static_cast<Index>(source);
+    for (; copies > 0 && k < ancestors.size(); --copies) {
+      ancestors[k++] = static_cast<Index>(i);
+    }
+  }
+}
+
+}  // namespace
+
+void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
+              std::span<Index> ancestors) {
+  ResamplingWorkspace work;
+  resample(scheme, weights, key, stage, ancestors, work);
+}
+
+void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
+              std::span<Index> ancestors, ResamplingWorkspace& work) {
+  switch (scheme) {
+    case Resampling::multinomial:
+      multinomial(weights, key, stage, ancestors, work.partial_sums);
+      break;
+    case Resampling::residual:
+      residual(weights, key, stage, ancestors, work);
+      break;
+    case Resampling::stratified:
+      stratified(weights, key, stage, ancestors, false);
+      break;
+    case Resampling::systematic:
+      stratified(weights, key, stage, ancestors, true);
+      break;
   }
 }
 

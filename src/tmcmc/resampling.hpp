@@ -1,5 +1,5 @@
 /// \file
-/// Multinomial resampling.
+/// Resampling: which samples the chains of a stage start from.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,27 @@
 
 namespace tmcmc {
 
-/// Ancestors of `ancestors.size()` independent draws with probabilities proportional to the weights, in
-/// ascending order. The sorted uniforms are partial sums of exponential spacings, so that the time is linear.
+/// Each scheme gives sample i an expected number of n w_i / sum(w) copies among n; they differ in the spread about it
+/// (Douc, Cappe and Moulines 2005).
+enum class Resampling {
+  multinomial,  ///< n independent draws (Ching and Chen 2007)
+  residual,     ///< the whole part of the expected number of copies, the rest multinomial
+  stratified,   ///< one draw from each n-th of the total weight
+  systematic    ///< the same with one uniform number for all; the least spread
+};
+
+/// Memory of resample(), to be reused from call to call.
+struct ResamplingWorkspace {
+  std::vector<double> partial_sums;
+  std::vector<double> residuals;
+  std::vector<Index> drawn;
+};
+
+/// Ancestors of `ancestors.size()` draws, in ascending order; their number need not be that of the weights. Linear time.
 /// \param weights  non-negative, with a positive sum
-/// \param partial_sums  work space, to be reused from call to call
-void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-                           std::span<Index> ancestors, std::vector<double>& partial_sums);
-void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-                           std::span<Index> ancestors);
+void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
+              std::span<Index> ancestors, ResamplingWorkspace& work);
+void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
+              std::span<Index> ancestors);
 
 }  // namespace tmcmc

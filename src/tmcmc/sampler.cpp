@@ -2,67 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
-#include "tmcmc/resampling.hpp"
+#include "tmcmc/diagnostics.hpp"
+#include "tmcmc/evidence.hpp"
 
 namespace tmcmc {
 
 namespace {
 
-template <class T>
-void require(bool condition, const char* field, T value, const char* expected) {
-  if (!condition) {
-    throw std::invalid_argument(std::string("options.") + field + " = " + std::to_string(value) +
-                                ": expected " + expected);
-  }
-}
-
-std::vector<Index> chain_lengths(std::span<const Index> ancestors, Index chains) {
-  std::vector<Index> lengths(static_cast<std::size_t>(chains));
-  for (const Index a : ancestors) {
-    ++lengths[static_cast<std::size_t>(a)];
-  }
-  return lengths;
-}
-
-/// Chains of unequal length: ancestors come sorted, so a chain fills consecutive rows, and its k-th state
-/// starts from the one in the row before.
-MoveCounts grow_chains(const MetropolisKernel& kernel, std::span<const Index> ancestors, State& state,
-                       Mover& mover) {
-  struct Chain {
-    Index row;  // of the next state
-    Index left;
-  };
-  std::vector<Chain> active;
-  Index row = 0;
-  for (const Index length : chain_lengths(ancestors, state.points.rows())) {
-    if (length > 0) {
-      active.push_back({row, length});
-      row += length;
-    }
-  }
-  MoveCounts counts;
-  std::vector<Index> rows;
-  while (!active.empty()) {
-    rows.clear();
-    for (const Chain& chain : active) {
-      rows.push_back(chain.row);
-    }
-    counts += mover.step(kernel, rows, 0, state.points, state.log_likelihood);
-    for (Chain& chain : active) {
-      --chain.left;
-      ++chain.row;
-    }
-    std::erase_if(active, [](const Chain& chain) { return chain.left == 0; });
-    for (const Chain& chain : active) {
-      state.points.row(chain.row) = state.points.row(chain.row - 1);
-      state.log_likelihood[chain.row] = state.log_likelihood[chain.row - 1];
-    }
-  }
-  return counts;
-}
+constexpr double optimal_scale = 2.38;  // times 1 / sqrt(d): Roberts, Gelman and Gilks (1997)
 
 Index count_above(const Eigen::VectorXd& log_likelihood, double level) {
   return std::count_if(log_likelihood.begin(), log_likelihood.end(),
@@ -77,21 +28,80 @@ Index count_distinct(std::span<const Index> sorted) {
   return distinct;
 }
 
-}  // namespace
-
-void Options::validate() const {
-  criterion.validate();
-  require(samples >= 2, "samples", samples, "at least 2");
-  require(move_steps >= 1, "move_steps", move_steps, "at least 1");
-  require(proposal_scale > 0.0 && std::isfinite(proposal_scale), "proposal_scale", proposal_scale,
-          "a positive number");
-  require(max_redraws >= 1, "max_redraws", max_redraws, "at least 1");
-  require(max_stages >= 1, "max_stages", max_stages, "at least 1");
-  require(minimum_step >= 0.0 && minimum_step < 1.0, "minimum_step", minimum_step, "a number in [0, 1)");
-  require(!std::isnan(infeasible_level), "infeasible_level", infeasible_level, "a number or minus infinity");
-  require(threads >= 1, "threads", threads, "at least 1");
-  require(batch_rows >= 0, "batch_rows", batch_rows, "a number of rows, or 0 for no limit");
+/// Chains of a stage after the first.
+Index chains_of(const Options& options) {
+  return options.move == MoveKind::waste_free ? options.chains : options.samples;
 }
+
+/// Metropolis steps of a stage's chains: what the options say, or in the last stage as many as the budget holds.
+Index steps_of(const Options& options, Index evaluations, bool last) {
+  const Index chains = chains_of(options);
+  if (last && options.evaluation_budget > 0) {
+    return (options.evaluation_budget - evaluations) / chains;
+  }
+  return options.move == MoveKind::waste_free ? options.samples / chains - 1 : options.move_steps;
+}
+
+bool fits_budget(const Options& options, const State& state, bool last) {
+  const Index steps = steps_of(options, state.evaluations, last);
+  return options.evaluation_budget == 0 ||
+         (steps >= 1 && steps * chains_of(options) <= options.evaluation_budget - state.evaluations);
+}
+
+double initial_scale(const Options& options) {
+  switch (options.scale_rule) {
+    case ScaleRule::dimension:
+    case ScaleRule::target_acceptance:
+      return optimal_scale;
+    case ScaleRule::fixed:  // the factor of the covariance holds the scale
+    case ScaleRule::acceptance_linked:
+      break;
+  }
+  return 1.0;
+}
+
+MetropolisKernel kernel_of(const Problem& problem, const Options& options, const State& from,
+                           ConstDoubles weights, double weight_sum) {
+  MetropolisKernel kernel;
+  const bool fixed = options.scale_rule == ScaleRule::fixed;
+  const double in_factor = fixed ? options.proposal_scale : 1.0;
+  Population unbounded;
+  const bool natural = options.coordinates == Coordinates::natural;
+  if (!natural) {
+    unbounded = to_unbounded(from.points, problem.prior);
+  }
+  const Population& points = natural ? from.points : unbounded;
+  kernel.factor =
+      cholesky_factor(proposal_covariance(points, weights, weight_sum, in_factor, options.centre));
+  kernel.factor_unit = 1.0 / in_factor;
+  if (options.independent_fraction > 0.0) {
+    kernel.centre = weighted_mean(points, weights, weight_sum);
+  }
+  kernel.scale = fixed || from.proposal_scale == 0.0 ? initial_scale(options) : from.proposal_scale;
+  kernel.divide_by_sqrt_size =
+      options.scale_rule == ScaleRule::dimension || options.scale_rule == ScaleRule::target_acceptance;
+  kernel.independent_fraction = options.independent_fraction;
+  kernel.random_subsets = options.random_subsets;
+  kernel.coordinates = options.coordinates;
+  kernel.boundary = options.boundary;
+  kernel.max_redraws = options.max_redraws;
+  kernel.stage = static_cast<std::uint32_t>(from.stage + 1);
+  return kernel;
+}
+
+void record_descent(const Options& options, std::span<const Index> ancestors, const State& from, State& to) {
+  const Index chains = from.genealogy.chains;
+  to.genealogy.chains = static_cast<Index>(ancestors.size());
+  to.genealogy.parents.clear();
+  to.genealogy.founders.clear();
+  for (std::size_t c = 0; c < ancestors.size() && options.diagnose; ++c) {
+    const Index parent = ancestors[c] % chains;
+    to.genealogy.parents.push_back(parent);
+    to.genealogy.founders.push_back(from.genealogy.founders[static_cast<std::size_t>(parent)]);
+  }
+}
+
+}  // namespace
 
 Workspace::Workspace(const Problem& problem, const Options& options, const StreamKey& key)
     : mover(problem.log_likelihood, problem.prior, key, options.threads, options.batch_rows) {}
@@ -102,6 +112,11 @@ State initial_state(const Problem& problem, const Options& options, const Stream
   state.log_likelihood.resize(options.samples);
   problem.log_likelihood(state.points, state.log_likelihood);
   state.evaluations = options.samples;
+  state.genealogy.chains = options.samples;
+  if (options.diagnose) {
+    state.genealogy.founders.resize(static_cast<std::size_t>(options.samples));
+    std::iota(state.genealogy.founders.begin(), state.genealogy.founders.end(), Index{0});
+  }
   require_valid(state.points, state.log_likelihood);
   if (count_above(state.log_likelihood, options.infeasible_level) == 0) {
     throw InfeasiblePriorError("none of the " + std::to_string(options.samples) +
@@ -113,11 +128,11 @@ State initial_state(const Problem& problem, const Options& options, const Stream
 StageRecord advance(const Problem& problem, const Options& options, const StreamKey& key,
                     const Transition& transition, const State& from, State& to, Workspace& work) {
   const Index n = from.points.rows();
-  const Index d = problem.prior.dimension();
   StageRecord record;
   record.stage = from.stage + 1;
   record.beta = transition.status == TransitionStatus::final_step ? 1.0 : from.beta + transition.step;
-  record.step = record.beta - from.beta;  // rounded, so that a schedule of the betas repeats the run bit for bit
+  record.step =
+      record.beta - from.beta;  // rounded, so that a schedule of the betas repeats the run bit for bit
   record.effective_sample_size = transition.effective_sample_size;
   record.coefficient_of_variation = transition.coefficient_of_variation;
   record.transition_evaluations = transition.evaluations;
@@ -131,40 +146,30 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
     std::fill(work.weights.begin(), work.weights.end(), 1.0);
   }
   record.log_evidence_increment = sums.log_mean;
-  MetropolisKernel kernel;
-  kernel.factor = cholesky_factor(
-      proposal_covariance(from.points, work.weights, sums.sum, options.proposal_scale, options.centre));
+  MetropolisKernel kernel = kernel_of(problem, options, from, work.weights, sums.sum);
   kernel.beta = record.beta;
-  kernel.boundary = options.boundary;
-  kernel.max_redraws = options.max_redraws;
-  kernel.stage = static_cast<std::uint32_t>(record.stage);
 
   auto& ancestors = work.ancestors;
-  ancestors.resize(static_cast<std::size_t>(n));
-  multinomial_ancestors(work.weights, key, kernel.stage, ancestors, work.partial_sums);
+  ancestors.resize(static_cast<std::size_t>(chains_of(options)));
+  resample(options.resampling, work.weights, key, kernel.stage, ancestors, work.resampling);
   record.distinct_ancestors = count_distinct(ancestors);
-  to.points.resize(n, d);
-  to.log_likelihood.resize(n);
-  for (Index j = 0; j < d; ++j) {
-    for (Index i = 0; i < n; ++i) {
-      to.points(i, j) = from.points(ancestors[static_cast<std::size_t>(i)], j);
-    }
-  }
-  for (Index i = 0; i < n; ++i) {
-    to.log_likelihood[i] = from.log_likelihood[ancestors[static_cast<std::size_t>(i)]];
-  }
+  to.gather(from.points, from.log_likelihood, ancestors);
+  record_descent(options, ancestors, from, to);
 
-  MoveCounts counts;
-  if (options.move == MoveKind::growing_chains) {
-    counts = grow_chains(kernel, ancestors, to, work.mover);
-  } else {
-    for (Index k = 0; k < options.move_steps; ++k) {
-      counts += work.mover.step(kernel, {}, static_cast<std::uint32_t>(k), to.points, to.log_likelihood);
-    }
-  }
+  const bool last = record.beta == 1.0;
+  const bool stop_when_mixed = options.mixing_correlation > 0.0 && !(last && options.evaluation_budget > 0);
+  const StageMoves moves =
+      move_population(options, kernel, ancestors, steps_of(options, from.evaluations, last), stop_when_mixed,
+                      to, work.mover, work.moves);
+  const MoveCounts& counts = moves.counts;
   record.acceptance_rate = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
   record.evaluations = counts.evaluations;
   record.redraws = counts.redraws;
+  record.move_steps = moves.steps;
+  record.proposal_scale = options.scale_rule == ScaleRule::fixed ? options.proposal_scale : kernel.scale;
+  to.proposal_scale = options.scale_rule == ScaleRule::acceptance_linked
+                          ? 1.0 / 9.0 + 8.0 / 9.0 * record.acceptance_rate
+                          : record.proposal_scale;
   to.beta = record.beta;
   to.stage = record.stage;
   to.log_evidence = from.log_evidence + record.log_evidence_increment;
@@ -175,11 +180,14 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
 Result run(const Problem& problem, const Options& options, const StreamKey& key, const StepRule& rule,
            const Observer& observer) {
   options.validate();
-  require(key.arm < (1U << 24U), "key.arm", key.arm, "a number below 2^24");
+  if (key.arm >= (1U << 24U)) {
+    throw std::invalid_argument("key.arm = " + std::to_string(key.arm) + ": expected a number below 2^24");
+  }
   Workspace work(problem, options, key);
   Result result;
   State state = initial_state(problem, options, key);
   State next;
+  BridgeEvidence bridge;
   while (state.beta < 1.0) {
     if (state.stage == options.max_stages) {
       result.stop = StopReason::stage_limit;
@@ -197,13 +205,25 @@ Result run(const Problem& problem, const Options& options, const StreamKey& key,
       result.stop = StopReason::step_too_small;
       break;
     }
+    if (!fits_budget(options, state, transition.status == TransitionStatus::final_step)) {
+      result.stop = StopReason::budget;
+      break;
+    }
     result.stages.push_back(advance(problem, options, key, transition, state, next, work));
+    if (options.diagnose) {
+      bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood), next.genealogy.parents,
+                 result.stages.back().step);
+    }
     std::swap(state, next);
     if (observer) {
       observer(result.stages.back(), state);
     }
   }
   result.final = std::move(state);
+  if (options.diagnose) {
+    result.evidence = {bridge.log_evidence(), bridge.standard_error()};
+    result.diagnostics = diagnose(result, options);
+  }
   return result;
 }
 

@@ -3,87 +3,18 @@
 /// the criterion, the moves and every other difference between texts are values in Options.
 #pragma once
 
-#include <limits>
+#include <functional>
 #include <vector>
 
-#include "tmcmc/moves.hpp"
-#include "tmcmc/proposal.hpp"
-#include "tmcmc/transition.hpp"
+#include "tmcmc/options.hpp"
+#include "tmcmc/result.hpp"
+#include "tmcmc/stage_moves.hpp"
 
 namespace tmcmc {
-
-/// How a stage turns weighted samples into equally weighted ones.
-enum class MoveKind {
-  resample_move,  ///< multinomial resampling to N starts, a chain of `move_steps` steps from each, last state
-                  ///< kept
-  /// The paper's wording: N times a chain is picked with probability w_i and its current state moved by one step; each
-  /// updated state is kept (move_steps is not used). Biased at any N: the chance that a chain is picked k times or more
-  /// is not proportional to its weight, so that short chains, which have moved little, count too much.
-  growing_chains
-};
-
-struct Options {
-  Index samples = 1000;  ///< N
-  Criterion criterion;   ///< Eq. 6 or 9
-  MoveKind move = MoveKind::resample_move;
-  Index move_steps = 3;                   ///< Metropolis steps a chain and stage
-  double proposal_scale = 0.2;            ///< gamma of Eq. 5
-  Centre centre = Centre::weighted_mean;  ///< m of Eq. 5
-  Boundary boundary = Boundary::reject;
-  Index max_redraws = 100000;  ///< a proposal drawn again more often ends the run with an error
-  /// Log-likelihoods at or below this count as infeasible where feasible samples are counted
-  /// (StageRecord::feasible, and the check that the first population has any); for models that use a penalty
-  /// in place of minus infinity.
-  double infeasible_level = -std::numeric_limits<double>::infinity();
-  Index max_stages = 1000;
-  double minimum_step = 1e-15;  ///< a smaller step of beta that does not reach 1 ends the run
-  int threads = 1;              ///< over the rows of one population
-  Index batch_rows = 0;         ///< most rows a call of the log-likelihood gets; 0: no limit but the threads
-
-  /// \throws std::invalid_argument naming field, value and constraint.
-  void validate() const;
-};
 
 struct Problem {
   LogLikelihood log_likelihood;
   BoxPrior prior;
-};
-
-/// A population at one temperature.
-struct State {
-  Population points;               ///< N x d
-  Eigen::VectorXd log_likelihood;  ///< N
-  double beta = 0.0;
-  double log_evidence = 0.0;  ///< sum of the log-mean weights up to beta
-  Index stage = 0;
-  Index evaluations = 0;  ///< log-likelihoods so far
-};
-
-struct StageRecord {
-  Index stage = 0;    ///< from 1
-  double beta = 0.0;  ///< after the stage
-  double step = 0.0;
-  double effective_sample_size = 0.0;     ///< of the weights of the step
-  double coefficient_of_variation = 0.0;  ///< of the weights, as the step rule reports it
-  double log_evidence_increment = 0.0;
-  double acceptance_rate = 0.0;  ///< of all proposals, those outside the box (Boundary::reject) included
-  Index feasible = 0;            ///< samples before the stage with a log-likelihood above infeasible_level
-  Index distinct_ancestors = 0;
-  Index evaluations = 0;  ///< log-likelihoods in this stage
-  Index redraws = 0;
-  int transition_evaluations = 0;  ///< evaluations of all weights to find the step
-};
-
-enum class StopReason {
-  completed,      ///< beta = 1
-  stage_limit,    ///< max_stages
-  step_too_small  ///< a step below minimum_step
-};
-
-struct Result {
-  State final;  ///< samples of the posterior if stop is completed
-  std::vector<StageRecord> stages;
-  StopReason stop = StopReason::completed;
 };
 
 /// Memory of a run that every stage uses again.
@@ -92,8 +23,9 @@ struct Workspace {
 
   Mover mover;
   std::vector<double> weights;
-  std::vector<double> partial_sums;
   std::vector<Index> ancestors;
+  ResamplingWorkspace resampling;
+  StageMoveWorkspace moves;
 };
 
 /// Called after each stage with its record and the new population.

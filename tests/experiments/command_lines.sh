@@ -21,7 +21,9 @@ for e in $experiments; do
   check "$e --version" grep -qE '^[a-z0-9_]+ [0-9]+\.[0-9]+\.[0-9]+$' <("$bin/$e" --version)
   options=""
   [ "$e" = evaluate_model ] && options="--points points.csv"
-  case $("$bin/$e" --help) in *"--runs "*) options="$options $small" ;; esac
+  [ "$e" = cost_accuracy ] && options="--family moves --studies 1"
+  case $("$bin/$e" --help) in *"--runs "*) options="$options --runs 3" ;; esac
+  case $("$bin/$e" --help) in *"--samples "*) options="$options --samples 200" ;; esac
   "$bin/$e" $options --output "$e.csv" >"$e.report" 2>"$e.err"
   check "$e ends with 0: $(cat "$e.err")" test $? = 0
   check "$e writes a CSV" test "$(wc -l <"$e.csv")" -ge 2

@@ -17,7 +17,7 @@ using tmcmc::Index;
 std::vector<Index> ancestors_of(const std::vector<double>& weights, std::size_t n, std::uint64_t seed,
                                 std::uint32_t stage = 1) {
   std::vector<Index> ancestors(n, -1);
-  tmcmc::multinomial_ancestors(weights, {.seed = seed}, stage, ancestors);
+  tmcmc::resample(tmcmc::Resampling::multinomial, weights, {.seed = seed}, stage, ancestors);
   return ancestors;
 }
 
@@ -114,9 +114,10 @@ TEST_CASE("the ancestors depend on seed and stage, not on the work space", "[tmc
   CHECK(ancestors_of(weights, 100, 1, 1) == ancestors);
   CHECK(ancestors_of(weights, 100, 1, 2) != ancestors);
   CHECK(ancestors_of(weights, 100, 2, 1) != ancestors);
-  std::vector<double> work(3, -1.0);
+  tmcmc::ResamplingWorkspace work;
+  work.partial_sums.assign(3, -1.0);
   std::vector<Index> again(100);
-  tmcmc::multinomial_ancestors(weights, {.seed = 1}, 1, again, work);
+  tmcmc::resample(tmcmc::Resampling::multinomial, weights, {.seed = 1}, 1, again, work);
   CHECK(again == ancestors);
 }
 

@@ -1,0 +1,133 @@
+// What makes the p-boxes smaller, and at what cost: likelihood evaluations of a run against the p-box areas (Table 3, Eq.
+// 25), the errors of the posterior means and the error of the log-evidence, all measured against the exact posterior. The
+// criterion, the number of samples and of steps, scale, resampling and kind of the moves are varied one at a time from the
+// published setting (N = 1000, N_eff = N/2, 3 steps); then the moves are improved one by one; then the recommended options
+// are given several budgets.
+//
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+
+#include <algorithm>
+
+#include "inputs.hpp"
+#include "study/accuracy.hpp"
+#include "study/verdict.hpp"
+
+using namespace experiments;
+
+namespace {
+
+/// Median, least and largest p-box area of one parameter over the studies.
+struct AreaRange {
+  double median, lowest, highest;
+};
+
+AreaRange range_of(std::vector<double> areas) {
+  std::sort(areas.begin(), areas.end());
+  return {study::sample_quantile(areas, 0.5), areas.front(), areas.back()};
+}
+
+study::KnownPosterior known(const estimation::ExactPosterior& posterior) {
+  study::KnownPosterior truth;
+  truth.mean.resize(friction::parameter_count);
+  truth.standard_deviation.resize(friction::parameter_count);
+  for (int p = 0; p < friction::parameter_count; ++p) {
+    const auto& marginal = posterior.marginal(static_cast<friction::Parameter>(p));
+    truth.mean[p] = marginal.mean();
+    truth.standard_deviation[p] = marginal.standard_deviation();
+  }
+  truth.log_evidence = posterior.log_evidence();
+  return truth;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program(
+      "cost_accuracy",
+      "Likelihood evaluations against p-box areas and errors, for settings of the sampler from the\n"
+      "published one to the recommended one, all against the exact posterior.");
+  InputFiles inputs;
+  PhysicsOptions physics;
+  RunOptions run_options;
+  long studies = 4;
+  std::string only;
+  program.add_output(
+      "CSV with one row a setting: evaluations, p-box areas, errors of means and log-evidence");
+  auto& app = program.app();
+  app.add_option("--studies", studies, "K, studies of R runs a setting; areas are given over these")
+      ->check(CLI::Range(1L, 1000000L));
+  app.add_option("--family", only, "Only settings of this family, for example 'recommended'");
+  run_options.add_to(app);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto reading = physics.reading();
+    const auto observations = read_observations(inputs.observations);
+    const auto prior = prior_for(inputs, reading);
+    const auto problem = study::problem(reading, observations, prior);
+    const auto truth =
+        known(exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior));
+    auto published = reading.sampler;
+    published.infeasible_level = reading.infeasible_log_likelihood;
+    auto settings = study::configurations(published);
+    std::erase_if(settings, [&](const auto& s) { return !only.empty() && s.family != only; });
+    if (settings.empty()) {
+      throw std::invalid_argument("--family: value '" + only + "': expected the family of a setting");
+    }
+
+    std::vector<std::string> columns = {"family", "setting", "evaluations", "most_evaluations", "stages"};
+    for (const char* quantity :
+         {"area_", "area_lowest_", "area_highest_", "bias_sd_", "spread_sd_", "effective_size_"}) {
+      for (const auto& name : parameter_columns) {
+        columns.push_back(quantity + name);
+      }
+    }
+    columns.insert(columns.end(), {"log_evidence_bias", "log_evidence_rms", "log_mean_weights_rms",
+                                   "standard_error_rms", "runs_with_warning"});
+    auto csv = open_csv(program.output(), columns);
+    program.report("{} studies of {} runs a setting, seed {}, reading {}; exact log-evidence {:.4f}\n",
+                   studies, run_options.runs, run_options.seed, physics.reading_name, truth.log_evidence);
+    program.report("{:<12} {:<28} {:>9} {:>7} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "", "", "evals", "stages",
+                   "area F_mu", "area w_n", "lnZ bias", "lnZ rms", "s.e.");
+    io::Progress progress("cost_accuracy", settings.size() * static_cast<std::size_t>(studies),
+                          !program.quiet());
+    for (std::uint32_t s = 0; s < settings.size(); ++s) {
+      std::vector<study::Run> runs;
+      std::vector<std::vector<double>> areas(parameter_columns.size());
+      for (long k = 0; k < studies; ++k) {
+        auto options = run_options.study_options();
+        options.study = static_cast<std::uint32_t>(k);
+        auto batch = study::run_arm(
+            problem, {settings[s].family + " " + settings[s].value, settings[s].options}, s, options);
+        const auto of_study = study::pbox_areas(batch);
+        for (std::size_t p = 0; p < areas.size(); ++p) {
+          areas[p].push_back(of_study[static_cast<Eigen::Index>(p)]);
+        }
+        std::move(batch.begin(), batch.end(), std::back_inserter(runs));
+        progress.advance();
+      }
+      const auto a = study::accuracy(runs, truth);
+      std::vector<double> medians, lowest, highest;
+      for (const auto& of_parameter : areas) {
+        const auto range = range_of(of_parameter);
+        medians.push_back(range.median);
+        lowest.push_back(range.lowest);
+        highest.push_back(range.highest);
+      }
+      program.report("{:<12} {:<28} {:>9.0f} {:>7.1f} {:>10.5f} {:>10.6f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+                     settings[s].family, settings[s].value, a.evaluations, a.stages, medians[0], medians[1],
+                     a.evidence_bias, a.evidence_rms, a.standard_error_rms);
+      if (csv) {
+        csv->row(settings[s].family, settings[s].value, a.evaluations, a.most_evaluations, a.stages, medians,
+                 lowest, highest, tmcmc::as_span(a.mean_bias), tmcmc::as_span(a.mean_spread),
+                 tmcmc::as_span(a.effective_size), a.evidence_bias, a.evidence_rms, a.weight_evidence_rms,
+                 a.standard_error_rms, a.warned);
+      }
+    }
+    if (csv) {
+      csv->commit();
+    }
+  });
+}

@@ -1,0 +1,122 @@
+#include "tmcmc/diagnostics.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "portable_math/sums.hpp"
+#include "tmcmc/evidence.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+constexpr double fewest_groups = 6.0;
+
+/// Group of each row, from the group of its chain.
+std::vector<Index> by_row(std::span<const Index> of_chain, Index rows) {
+  std::vector<Index> groups(static_cast<std::size_t>(rows));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    groups[i] = of_chain[i % of_chain.size()];
+  }
+  return groups;
+}
+
+std::vector<Index> groups_of(const Genealogy& genealogy, Index rows) {
+  for (const auto* groups : {&genealogy.founders, &genealogy.parents}) {
+    if (!groups->empty() && effective_groups(*groups) >= fewest_groups) {
+      return by_row(*groups, rows);
+    }
+  }
+  std::vector<Index> chains(static_cast<std::size_t>(genealogy.chains));
+  std::iota(chains.begin(), chains.end(), Index{0});
+  return by_row(chains, rows);
+}
+
+class Warnings {
+ public:
+  /// Adds a warning if value < bound: "<what> is <value>: below <bound>; <advice>".
+  void below(double value, double bound, WarningKind kind, const std::string& what, const char* advice) {
+    add(value < bound, value, bound, kind, what, "below", advice);
+  }
+  void above(double value, double bound, WarningKind kind, const std::string& what, const char* advice) {
+    add(value > bound, value, bound, kind, what, "above", advice);
+  }
+  [[nodiscard]] std::vector<Warning> take() { return std::move(list_); }
+
+ private:
+  void add(bool found, double value, double bound, WarningKind kind, const std::string& what,
+           const char* relation, const char* advice) {
+    if (found) {
+      std::ostringstream message;
+      message.precision(3);
+      message << what << " is " << value << ": " << relation << " " << bound << "; " << advice;
+      list_.push_back({kind, message.str()});
+    }
+  }
+
+  std::vector<Warning> list_;
+};
+
+std::string of_stage(const char* what, const StageRecord& stage) {
+  return what + (" of stage " + std::to_string(stage.stage));
+}
+
+}  // namespace
+
+Diagnostics diagnose(const Result& result, const Options& options) {
+  Diagnostics diagnostics;
+  diagnostics.effective_sample_size = effective_sample_sizes(result.final.points, result.final.genealogy);
+  Warnings warnings;
+  const double n = static_cast<double>(options.samples);
+  if (!result.stages.empty()) {
+    warnings.below(static_cast<double>(result.stages.front().feasible), std::max(0.01 * n, 20.0),
+                   WarningKind::few_feasible, "the number of feasible draws from the prior",
+                   "take more samples or a tighter prior");
+    const auto ancestors = [](const StageRecord& a, const StageRecord& b) {
+      return a.distinct_ancestors < b.distinct_ancestors;
+    };
+    const StageRecord& fewest = *std::min_element(result.stages.begin(), result.stages.end(), ancestors);
+    const double starts = options.move == MoveKind::waste_free ? static_cast<double>(options.chains) : n;
+    warnings.below(static_cast<double>(fewest.distinct_ancestors), std::max(0.05 * starts, 3.0),
+                   WarningKind::few_ancestors, of_stage("the number of different ancestors", fewest),
+                   "take smaller steps of beta or more samples");
+    const auto acceptance = [](const StageRecord& a, const StageRecord& b) {
+      return a.acceptance_rate < b.acceptance_rate;
+    };
+    const StageRecord& lowest = *std::min_element(result.stages.begin(), result.stages.end(), acceptance);
+    warnings.below(lowest.acceptance_rate, 0.05, WarningKind::low_acceptance,
+                   of_stage("the acceptance rate", lowest), "take a smaller proposal scale or more steps");
+    warnings.above(result.evidence.standard_error, 1.0, WarningKind::uncertain_evidence,
+                   "the standard error of the log-evidence", "take more samples or longer chains");
+  }
+  for (Index j = 0; j < diagnostics.effective_sample_size.size(); ++j) {
+    warnings.below(diagnostics.effective_sample_size[j], 50.0, WarningKind::low_effective_size,
+                   "the effective sample size of parameter " + std::to_string(j),
+                   "take more or longer chains");
+  }
+  diagnostics.warnings = warnings.take();
+  return diagnostics;
+}
+
+Eigen::VectorXd effective_sample_sizes(const Population& points, const Genealogy& genealogy) {
+  const auto n = static_cast<std::size_t>(points.rows());
+  const double size = static_cast<double>(n);
+  const auto groups = groups_of(genealogy, points.rows());
+  Eigen::VectorXd result(points.cols());
+  std::vector<double> deviations(n);
+  for (Index j = 0; j < points.cols(); ++j) {
+    const double* x = points.col(j).data();
+    const double mean = portable_math::sum_of(n, [=](std::size_t i) { return x[i]; }) / size;
+    for (std::size_t i = 0; i < n; ++i) {
+      deviations[i] = x[i] - mean;
+    }
+    const double squares =
+        portable_math::sum_of(n, [&](std::size_t i) { return deviations[i] * deviations[i]; });
+    const double variance_of_sum = grouped_variance(deviations, groups);
+    result[j] = squares > 0.0 ? size * squares / variance_of_sum : 0.0;
+  }
+  return result;
+}
+
+}  // namespace tmcmc

@@ -1,0 +1,90 @@
+/// \file
+/// Options of the sampler.
+#pragma once
+
+#include <limits>
+
+#include "tmcmc/proposal.hpp"
+#include "tmcmc/proposals.hpp"
+#include "tmcmc/resampling.hpp"
+#include "tmcmc/transition.hpp"
+
+namespace tmcmc {
+
+/// How a stage turns weighted samples into equally weighted ones.
+enum class MoveKind {
+  resample_move,  ///< resampling to N starts, a chain of `move_steps` steps from each, last state kept
+  /// The paper's wording: N times a chain is picked with probability w_i and its current state moved by one step; each
+  /// updated state is kept (move_steps is not used). Biased at any N: the chance that a chain is picked k times or more
+  /// is not proportional to its weight, so that short chains, which have moved little, count too much.
+  growing_chains,
+  /// Dau and Chopin (2022): resampling to M = `chains` starts, a chain of N/M - 1 steps from each, every state kept, the
+  /// start included (move_steps is not used). Long chains and no evaluation thrown away.
+  waste_free
+};
+
+/// Scale of a random-walk proposal, as a multiple of the population's covariance.
+enum class ScaleRule {
+  fixed,  ///< proposal_scale (Eq. 5: 0.2)
+  dimension,  ///< 2.38 / sqrt(d), d the number of coordinates that a proposal changes (Roberts, Gelman and Gilks 1997)
+  /// starts as `dimension`; after step k of a stage its logarithm grows by (acceptance rate - target_acceptance) /
+  /// sqrt(k), and the next stage goes on from there (after Betz, Papaioannou and Straub 2016, who adapt after groups of
+  /// chains)
+  target_acceptance,
+  acceptance_linked  ///< 1/9 + 8/9 of the acceptance rate of the stage before (Minson, Simons and Beck 2013); first 1
+};
+
+struct Options {
+  Index samples = 1000;  ///< N
+  Criterion criterion;   ///< Eq. 6 or 9
+  Resampling resampling = Resampling::multinomial;
+
+  MoveKind move = MoveKind::resample_move;
+  Index move_steps =
+      3;  ///< Metropolis steps a chain and stage (resample-move); the least number with mixing_correlation
+  /// If positive: a stage of resample-move goes on until the correlation between the states of the chains and their
+  /// starts is at most this in every parameter, or max_move_steps are done.
+  double mixing_correlation = 0.0;
+  Index max_move_steps = 1000;
+  Index chains = 50;  ///< M of waste-free; has to divide samples
+
+  ScaleRule scale_rule = ScaleRule::fixed;
+  double proposal_scale = 0.2;            ///< gamma of Eq. 5, with ScaleRule::fixed
+  double target_acceptance = 0.3;         ///< with ScaleRule::target_acceptance
+  Centre centre = Centre::weighted_mean;  ///< m of Eq. 5
+  Coordinates coordinates = Coordinates::natural;
+  bool random_subsets =
+      false;  ///< a proposal changes a random set of (whitened) coordinates: MetropolisKernel
+  double independent_fraction = 0.0;     ///< share of independent proposals: MetropolisKernel
+  Boundary boundary = Boundary::reject;  ///< redraw needs a random walk in all natural coordinates
+  Index max_redraws = 100000;            ///< a proposal drawn again more often ends the run with an error
+
+  /// Log-likelihoods at or below this count as infeasible where feasible samples are counted
+  /// (StageRecord::feasible, and the check that the first population has any); for models that use a penalty
+  /// in place of minus infinity.
+  double infeasible_level = -std::numeric_limits<double>::infinity();
+  Index max_stages = 1000;
+  double minimum_step = 1e-15;  ///< a smaller step of beta that does not reach 1 ends the run
+  /// Most log-likelihoods of a run; 0: no limit. The chains of the last stage go on until it is used up, and a run that
+  /// would need more before ends with StopReason::budget. Not for growing chains.
+  Index evaluation_budget = 0;
+  /// Bridge estimate of the log-evidence with its error, effective sample sizes and warnings (Result::evidence and
+  /// Result::diagnostics).
+  bool diagnose = true;
+  int threads = 1;       ///< over the rows of one population
+  Index batch_rows = 0;  ///< most rows a call of the log-likelihood gets; 0: no limit but the threads
+
+  /// \throws std::invalid_argument naming field, value and constraint.
+  void validate() const;
+};
+
+/// What we would use: the paper's N_eff = N/2 (of the feasible samples) with better moves: waste-free with 10 chains,
+/// systematic resampling, half of the proposals random walks of scale 2.38/sqrt(d) and half independent, in random subsets
+/// of unbounded coordinates. Found by experiments/cost_accuracy on the friction benchmark and checked by
+/// experiments/calibration and benchmark_problems. Posteriors of several separate modes want more chains (Options::chains):
+/// each mode keeps only the mass of the chains that started in it.
+/// \param evaluations  budget of log-likelihoods, at least 500; a 13th of it is N, and the last stage gets what is left
+/// \throws std::invalid_argument for a smaller budget.
+[[nodiscard]] Options recommended_options(Index evaluations = 31000);
+
+}  // namespace tmcmc

@@ -1,0 +1,232 @@
+#include "tmcmc/proposals.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "portable_math/multiversion.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+constexpr std::size_t lanes = ProposalLanes::lanes;
+using Lanes = ProposalLanes::Lanes;
+using WordLanes = std::array<std::uint64_t, lanes>;
+
+constexpr std::uint32_t choice_block = 1U << 24U;  // of the random words: beyond those of the normals
+
+PORTABLE_MATH_MULTIVERSION
+void fill_log_uniforms(const WordLanes& words, Lanes& result) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    result[i] = portable_math::log_positive(uniform_open(words[i]));
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void normals(const WordLanes& radius_a, const WordLanes& radius_b, const WordLanes& angles, Lanes* z) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const NormalPair a = normal_pair(radius_a[i], angles[i] >> 32U);
+    const NormalPair b = normal_pair(radius_b[i], angles[i]);
+    z[0][i] = a.first;
+    z[1][i] = a.second;
+    z[2][i] = b.first;
+    z[3][i] = b.second;
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void add_scaled(double scale, const Lanes& z, Lanes& x) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    x[i] += scale * z[i];
+  }
+}
+
+/// inside[i] &= low <= x[i] <= high
+PORTABLE_MATH_MULTIVERSION
+void check_bounds(const Lanes& x, double low, double high, Lanes& inside) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double above = x[i] >= low ? inside[i] : 0.0;
+    inside[i] = x[i] <= high ? above : 0.0;
+  }
+}
+
+/// x becomes u = log((x - low) / (high - x)); log_density loses log(dx/du) but for a constant.
+PORTABLE_MATH_MULTIVERSION
+void leave_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double below = portable_math::log(x[i] - low);
+    const double above = portable_math::log(high - x[i]);
+    log_jacobian[i] -= below + above;
+    x[i] = below - above;
+  }
+}
+
+/// The way back, from u; log_jacobian gains log(dx/du). What rounds to a bound counts as outside.
+PORTABLE_MATH_MULTIVERSION
+void enter_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double e = portable_math::exp(x[i] > 0.0 ? -x[i] : x[i]);
+    const double part = (high - low) * (e / (1.0 + e));
+    const double value = x[i] > 0.0 ? high - part : low + part;
+    const bool inside = value > low && value < high;
+    x[i] = inside ? value : high + (high - low);
+    log_jacobian[i] += inside ? portable_math::log(value - low) + portable_math::log(high - value) : 0.0;
+  }
+}
+
+/// z becomes the step in units of the factor's columns, and log_correction what an independent draw adds.
+PORTABLE_MATH_MULTIVERSION
+void step_of(double unit, const Lanes& y, const Lanes& chosen, const Lanes& independent,
+             const Lanes& walk_scale, Lanes& z, Lanes& log_correction) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double white = y[i] / unit;
+    const double part = chosen[i] * independent[i];
+    log_correction[i] += part * (0.5 * (z[i] * z[i] - white * white));
+    const double walk = walk_scale[i] * z[i];
+    const double fresh = unit * z[i] - y[i];
+    z[i] = chosen[i] * (independent[i] != 0.0 ? fresh : walk);
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void scale_to(double factor, double centre, const Lanes& x, Lanes& y) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    y[i] = factor * (x[i] - centre);
+  }
+}
+
+}  // namespace
+
+Population to_unbounded(const Population& points, const BoxPrior& prior) {
+  Population result(points.rows(), points.cols());
+  for (Index j = 0; j < points.cols(); ++j) {
+    for (Index i = 0; i < points.rows(); ++i) {
+      result(i, j) = portable_math::log(points(i, j) - prior.lower()[j]) -
+                     portable_math::log(prior.upper()[j] - points(i, j));
+    }
+  }
+  return result;
+}
+
+ProposalLanes::ProposalLanes(Index dimension)
+    : dimension_(dimension),
+      z_(static_cast<std::size_t>((dimension + 3) / 4 * 4)),
+      x_(static_cast<std::size_t>(dimension)),
+      y_(static_cast<std::size_t>(dimension)),
+      chosen_(static_cast<std::size_t>(dimension)) {}
+
+void ProposalLanes::draw(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel,
+                         const RowIds& rows, std::size_t count, Lanes* log_uniforms) {
+  for (std::size_t group = 0; 4 * group < z_.size(); ++group) {
+    DrawId place = id;
+    place.block = static_cast<std::uint32_t>(group);
+    for (std::size_t i = 0; i < count; ++i) {
+      place.row = rows[i];
+      const Words w = random_words(key, place);
+      for (std::size_t word = 0; word < 4; ++word) {
+        words_[word][i] = w[word];
+      }
+    }
+    if (group == 0 && log_uniforms != nullptr) {
+      fill_log_uniforms(words_[0], *log_uniforms);
+    }
+    normals(words_[1], words_[2], words_[3], &z_[4 * group]);
+  }
+  if (!kernel.plain()) {
+    draw_choices(key, id, kernel, rows, count);
+  }
+}
+
+void ProposalLanes::draw_choices(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel,
+                                 const RowIds& rows, std::size_t count) {
+  const auto d = static_cast<std::uint64_t>(dimension_);
+  const auto levels =
+      static_cast<std::uint64_t>(std::bit_width(d));  // probabilities 1, 1/2, ..., no less than 1/d
+  const auto scaled = [](std::uint64_t bits, std::uint64_t n) {
+    return (bits >> 32U) * n >> 32U;
+  };  // 0 ... n - 1
+  DrawId place = id;
+  for (std::size_t i = 0; i < count; ++i) {
+    place.row = rows[i];
+    place.block = choice_block;
+    Words w = random_words(key, place);
+    independent_[i] = uniform_32(w[0]) < kernel.independent_fraction ? 1.0 : 0.0;
+    const double probability = std::ldexp(1.0, -static_cast<int>(scaled(w[0], levels)));
+    const std::uint64_t always = scaled(w[1], d);
+    double size = 0.0;
+    for (std::uint64_t j = 0; j < d; ++j) {
+      if (j % 8 == 0 && kernel.random_subsets) {
+        ++place.block;
+        w = random_words(key, place);
+      }
+      const double u = uniform_32(w[j % 8 / 2] >> (32U * (j % 2)));
+      const bool chosen = !kernel.random_subsets || j == always || u < probability;
+      const bool varies = kernel.factor(static_cast<Index>(j), static_cast<Index>(j)) > 0.0;
+      chosen_[j][i] = chosen && varies ? 1.0 : 0.0;
+      size += chosen ? 1.0 : 0.0;
+    }
+    walk_scale_[i] = kernel.divide_by_sqrt_size ? kernel.scale / std::sqrt(size) : kernel.scale;
+  }
+}
+
+void ProposalLanes::shift(const MetropolisKernel& kernel) {
+  const Index d = dimension_;
+  for (Index k = 0; k < d; ++k) {  // y = factor^-1 (u - centre)
+    const auto column = static_cast<std::size_t>(k);
+    if (kernel.independent_fraction > 0.0 && kernel.factor(k, k) > 0.0) {
+      scale_to(1.0, kernel.centre[k], x_[column], y_[column]);
+      for (Index l = 0; l < k; ++l) {
+        add_scaled(-kernel.factor(k, l), y_[static_cast<std::size_t>(l)], y_[column]);
+      }
+      scale_to(1.0 / kernel.factor(k, k), 0.0, y_[column], y_[column]);
+    } else {
+      y_[column].fill(0.0);
+    }
+  }
+  for (std::size_t k = 0; k < y_.size(); ++k) {
+    step_of(kernel.factor_unit, y_[k], chosen_[k], independent_, walk_scale_, z_[k], log_correction_);
+  }
+}
+
+void ProposalLanes::propose(const MetropolisKernel& kernel, const BoxPrior& prior, const Population& points,
+                            const RowIds& rows, std::size_t count) {
+  log_correction_.fill(0.0);
+  for (Index j = 0; j < dimension_; ++j) {
+    Lanes& x = x_[static_cast<std::size_t>(j)];
+    const double* column = points.col(j).data();
+    for (std::size_t i = 0; i < count; ++i) {
+      x[i] = column[rows[i]];
+    }
+    if (kernel.coordinates == Coordinates::unbounded) {
+      leave_box(prior.lower()[j], prior.upper()[j], x, log_correction_);
+    }
+  }
+  double scale = kernel.scale;
+  if (!kernel.plain()) {
+    shift(kernel);
+    scale = 1.0;
+  } else if (kernel.divide_by_sqrt_size) {
+    scale /= std::sqrt(static_cast<double>(dimension_));
+  }
+  for (Index j = 0; j < dimension_; ++j) {
+    Lanes& x = x_[static_cast<std::size_t>(j)];
+    for (Index k = 0; k <= j; ++k) {
+      add_scaled(scale * kernel.factor(j, k), z_[static_cast<std::size_t>(k)], x);
+    }
+    if (kernel.coordinates == Coordinates::unbounded) {
+      enter_box(prior.lower()[j], prior.upper()[j], x, log_correction_);
+    }
+  }
+}
+
+std::size_t ProposalLanes::check(const BoxPrior& prior, std::size_t count) {
+  inside_.fill(1.0);
+  for (Index j = 0; j < dimension_; ++j) {
+    check_bounds(x_[static_cast<std::size_t>(j)], prior.lower()[j], prior.upper()[j], inside_);
+  }
+  return static_cast<std::size_t>(
+      std::count(inside_.begin(), inside_.begin() + static_cast<std::ptrdiff_t>(count), 1.0));
+}
+
+}  // namespace tmcmc

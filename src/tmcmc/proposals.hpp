@@ -1,0 +1,104 @@
+/// \file
+/// Metropolis proposals, 64 chains at a time.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tmcmc/prior.hpp"
+
+namespace tmcmc {
+
+/// Coordinates in which proposals are made.
+enum class Coordinates {
+  natural,  ///< the parameters; a proposal can fall outside the prior box
+  unbounded  ///< u = log((x - lower) / (upper - x)); the acceptance ratio carries the Jacobian, and none falls outside
+};
+
+/// What happens to a proposal outside the prior box.
+enum class Boundary {
+  reject,  ///< the chain stays; leaves the tempered posterior invariant
+  redraw   ///< drawn again until inside, without the correction of the acceptance ratio (published scripts)
+};
+
+/// The Metropolis kernel of one stage. With u the coordinates, L = factor_unit * factor the Cholesky factor of their
+/// covariance Sigma, and S a set of whitened coordinates, a proposal is
+///
+///     random walk:  u' = u + scale * factor * z_S
+///     independent:  u' = u + L (z_S - y_S),  y = L^-1 (u - centre),
+///
+/// z standard normal. The second draws the whitened coordinates in S anew from the normal distribution that was fitted to
+/// the population; its acceptance ratio is multiplied by exp((|z_S|^2 - |y_S|^2) / 2).
+struct MetropolisKernel {
+  Eigen::MatrixXd factor;    ///< lower triangular, d x d
+  double factor_unit = 1.0;  ///< factor times this is the Cholesky factor of the covariance itself
+  Eigen::VectorXd
+      centre;  ///< mean of the population in the same coordinates; needed if independent_fraction > 0
+  double beta = 1.0;
+  double scale = 1.0;                 ///< of a random walk
+  bool divide_by_sqrt_size = false;   ///< divides scale by the square root of the number of coordinates in S
+  double independent_fraction = 0.0;  ///< probability that a proposal is an independent one
+  /// S: one coordinate at random, and each other with a probability that is itself drawn from 1, 1/2, 1/4, ... down to
+  /// 1/d; else all.
+  bool random_subsets = false;
+  Coordinates coordinates = Coordinates::natural;
+  Boundary boundary = Boundary::reject;
+  Index max_redraws = 100000;
+  std::uint32_t stage = 0;  ///< enters the random stream
+
+  /// A random walk in all natural coordinates: what the paper has.
+  [[nodiscard]] bool plain() const {
+    return independent_fraction == 0.0 && !random_subsets && coordinates == Coordinates::natural;
+  }
+};
+
+/// Columns of the points in unbounded coordinates, n x d.
+/// \param points  n x d, inside the box
+[[nodiscard]] Population to_unbounded(const Population& points, const BoxPrior& prior);
+
+/// Proposals for up to 64 chains at a time, with the memory that they take.
+class ProposalLanes {
+ public:
+  static constexpr std::size_t lanes = 64;
+  using Lanes = std::array<double, lanes>;
+  using RowIds = std::array<std::uint64_t, lanes>;
+
+  explicit ProposalLanes(Index dimension);
+
+  /// Draws what the proposals of `count` rows need; the log-uniforms of the acceptance too if log_uniforms is given.
+  void draw(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel, const RowIds& rows,
+            std::size_t count, Lanes* log_uniforms);
+
+  /// Makes the proposals from the rows of `points`.
+  void propose(const MetropolisKernel& kernel, const BoxPrior& prior, const Population& points,
+               const RowIds& rows, std::size_t count);
+
+  /// Marks the proposals inside the box and returns their number.
+  std::size_t check(const BoxPrior& prior, std::size_t count);
+
+  [[nodiscard]] bool inside(std::size_t lane) const { return inside_[lane] != 0.0; }
+  /// Proposed parameter j, a lane a chain.
+  [[nodiscard]] const Lanes& parameter(Index j) const { return x_[static_cast<std::size_t>(j)]; }
+  /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and ratio of proposal densities.
+  [[nodiscard]] const Lanes& log_correction() const { return log_correction_; }
+
+ private:
+  using WordLanes = std::array<std::uint64_t, lanes>;
+
+  void draw_choices(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel,
+                    const RowIds& rows, std::size_t count);
+  void shift(const MetropolisKernel& kernel);
+
+  Index dimension_;
+  std::array<WordLanes, 4> words_{};
+  std::vector<Lanes> z_;       // standard normals
+  std::vector<Lanes> x_;       // proposals
+  std::vector<Lanes> y_;       // whitened coordinates
+  std::vector<Lanes> chosen_;  // 1 for coordinates in S
+  Lanes independent_{};        // 1 for independent proposals
+  Lanes walk_scale_{};
+  Lanes inside_{};
+  Lanes log_correction_{};
+};
+
+}  // namespace tmcmc

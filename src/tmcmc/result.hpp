@@ -1,0 +1,98 @@
+/// \file
+/// What a run returns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tmcmc/types.hpp"
+
+namespace tmcmc {
+
+/// Descent of the chains of a population.
+struct Genealogy {
+  Index chains = 0;  ///< row i of the population belongs to chain i modulo this
+  std::vector<Index>
+      parents;  ///< chain of the population before in which each chain started; none for the prior
+  std::vector<Index> founders;  ///< draw from the prior that each chain descends from
+};
+
+/// Points with their log-likelihoods.
+struct Walkers {
+  Population points;               ///< n x d
+  Eigen::VectorXd log_likelihood;  ///< n
+
+  /// Takes the given rows of a population.
+  void gather(const Population& from_points, const Eigen::VectorXd& from_log_likelihood,
+              std::span<const Index> rows);
+};
+
+/// A population at one temperature.
+struct State : Walkers {
+  double beta = 0.0;
+  double log_evidence = 0.0;  ///< sum of the log-mean weights up to beta
+  Index stage = 0;
+  Index evaluations = 0;        ///< log-likelihoods so far
+  double proposal_scale = 0.0;  ///< what the rules that adapt it have come to; 0 before the first stage
+  Genealogy genealogy;          ///< without Options::diagnose the number of chains alone
+};
+
+struct StageRecord {
+  Index stage = 0;    ///< from 1
+  double beta = 0.0;  ///< after the stage
+  double step = 0.0;
+  double effective_sample_size = 0.0;     ///< of the weights of the step
+  double coefficient_of_variation = 0.0;  ///< of the weights, as the step rule reports it
+  double log_evidence_increment = 0.0;
+  double acceptance_rate = 0.0;  ///< of all proposals, those outside the box (Boundary::reject) included
+  Index feasible = 0;            ///< samples before the stage with a log-likelihood above infeasible_level
+  Index distinct_ancestors = 0;
+  Index evaluations = 0;  ///< log-likelihoods in this stage
+  Index redraws = 0;
+  Index move_steps = 0;  ///< Metropolis steps of each chain; of the longest one with growing chains
+  double proposal_scale =
+      0.0;  ///< at the end of the stage; before a division by the square root of a subset's size
+  int transition_evaluations = 0;  ///< evaluations of all weights to find the step
+};
+
+enum class StopReason {
+  completed,       ///< beta = 1
+  stage_limit,     ///< max_stages
+  step_too_small,  ///< a step below minimum_step
+  budget           ///< the next stage would need more than evaluation_budget
+};
+
+/// A log-evidence with its standard error.
+struct Evidence {
+  double log_evidence = 0.0;
+  double standard_error = 0.0;
+};
+
+enum class WarningKind {
+  few_feasible,        ///< less than 1 % of the draws from the prior, or fewer than 20, are feasible
+  few_ancestors,       ///< after a resampling less than 5 % of the starts differ (or fewer than 3)
+  low_acceptance,      ///< a stage accepted less than 5 % of its proposals
+  low_effective_size,  ///< effective sample size of a parameter below 50
+  uncertain_evidence   ///< standard error of the log-evidence above 1
+};
+
+struct Warning {
+  WarningKind kind;
+  std::string message;  ///< what was found, against which bound, and what helps
+};
+
+struct Diagnostics {
+  Eigen::VectorXd effective_sample_size;  ///< of each parameter
+  std::vector<Warning> warnings;          ///< empty for a run that looks healthy
+};
+
+struct Result {
+  State final;  ///< samples of the posterior if stop is completed
+  std::vector<StageRecord> stages;
+  StopReason stop = StopReason::completed;
+  Evidence
+      evidence;  ///< by bridge sampling up to final.beta; final.log_evidence is the sum of log-mean weights
+  Diagnostics diagnostics;  ///< empty, as is evidence, without Options::diagnose
+};
+
+}  // namespace tmcmc

@@ -1,0 +1,160 @@
+#include "tmcmc/stage_moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "portable_math/sums.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+/// One step of all walkers, and what the scale learns from it.
+MoveCounts step_and_adapt(const Options& options, MetropolisKernel& kernel, Index step, Walkers& walkers,
+                          Mover& mover) {
+  const MoveCounts counts =
+      mover.step(kernel, {}, static_cast<std::uint32_t>(step), walkers.points, walkers.log_likelihood);
+  if (options.scale_rule == ScaleRule::target_acceptance) {
+    const double acceptance = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
+    kernel.scale *= portable_math::exp((acceptance - options.target_acceptance) /
+                                       std::sqrt(static_cast<double>(step + 1)));
+  }
+  return counts;
+}
+
+std::vector<Index> chain_lengths(std::span<const Index> sorted_ancestors) {
+  std::vector<Index> lengths;
+  for (std::size_t i = 0; i < sorted_ancestors.size(); ++i) {
+    if (i == 0 || sorted_ancestors[i] != sorted_ancestors[i - 1]) {
+      lengths.push_back(0);
+    }
+    ++lengths.back();
+  }
+  return lengths;
+}
+
+/// Chains of unequal length: ancestors come sorted, so a chain fills consecutive rows, and its k-th state
+/// starts from the one in the row before.
+StageMoves grow_chains(const MetropolisKernel& kernel, std::span<const Index> ancestors, Walkers& walkers,
+                       Mover& mover) {
+  struct Chain {
+    Index row;  // of the next state
+    Index left;
+  };
+  std::vector<Chain> active;
+  Index row = 0;
+  for (const Index length : chain_lengths(ancestors)) {
+    active.push_back({row, length});
+    row += length;
+  }
+  StageMoves result;
+  std::vector<Index> rows;
+  for (; !active.empty(); ++result.steps) {
+    rows.clear();
+    for (const Chain& chain : active) {
+      rows.push_back(chain.row);
+    }
+    result.counts += mover.step(kernel, rows, 0, walkers.points, walkers.log_likelihood);
+    for (Chain& chain : active) {
+      --chain.left;
+      ++chain.row;
+    }
+    std::erase_if(active, [](const Chain& chain) { return chain.left == 0; });
+    for (const Chain& chain : active) {
+      walkers.points.row(chain.row) = walkers.points.row(chain.row - 1);
+      walkers.log_likelihood[chain.row] = walkers.log_likelihood[chain.row - 1];
+    }
+  }
+  return result;
+}
+
+StageMoves keep_last_states(const Options& options, MetropolisKernel& kernel, Index steps,
+                            bool stop_when_mixed, Walkers& walkers, Mover& mover, Population& starts) {
+  StageMoves result;
+  if (stop_when_mixed) {
+    starts = walkers.points;
+  }
+  const auto go_on = [&] {
+    return stop_when_mixed && result.steps < options.max_move_steps &&
+           largest_correlation(starts, walkers.points) > options.mixing_correlation;
+  };
+  while (result.steps < steps || go_on()) {
+    result.counts += step_and_adapt(options, kernel, result.steps++, walkers, mover);
+  }
+  return result;
+}
+
+StageMoves keep_all_states(const Options& options, MetropolisKernel& kernel, Index steps, Walkers& walkers,
+                           Mover& mover, Walkers& chains) {
+  StageMoves result;
+  std::swap(chains, walkers);
+  const Index m = chains.points.rows();
+  walkers.points.resize(m * (steps + 1), chains.points.cols());
+  walkers.log_likelihood.resize(m * (steps + 1));
+  const auto keep = [&] {
+    walkers.points.middleRows(m * result.steps, m) = chains.points;
+    walkers.log_likelihood.segment(m * result.steps, m) = chains.log_likelihood;
+  };
+  keep();
+  while (result.steps < steps) {
+    result.counts += step_and_adapt(options, kernel, result.steps++, chains, mover);
+    keep();
+  }
+  return result;
+}
+
+}  // namespace
+
+void Walkers::gather(const Population& from_points, const Eigen::VectorXd& from_log_likelihood,
+                     std::span<const Index> rows) {
+  const auto n = static_cast<Index>(rows.size());
+  points.resize(n, from_points.cols());
+  log_likelihood.resize(n);
+  for (Index j = 0; j < from_points.cols(); ++j) {
+    for (Index i = 0; i < n; ++i) {
+      points(i, j) = from_points(rows[static_cast<std::size_t>(i)], j);
+    }
+  }
+  for (Index i = 0; i < n; ++i) {
+    log_likelihood[i] = from_log_likelihood[rows[static_cast<std::size_t>(i)]];
+  }
+}
+
+StageMoves move_population(const Options& options, MetropolisKernel& kernel, std::span<const Index> ancestors,
+                           Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
+                           StageMoveWorkspace& work) {
+  switch (options.move) {
+    case MoveKind::growing_chains:
+      return grow_chains(kernel, ancestors, walkers, mover);
+    case MoveKind::waste_free:
+      return keep_all_states(options, kernel, steps, walkers, mover, work.chains);
+    case MoveKind::resample_move:
+      break;
+  }
+  return keep_last_states(options, kernel, steps, stop_when_mixed, walkers, mover, work.starts);
+}
+
+double largest_correlation(const Population& a, const Population& b) {
+  const auto n = static_cast<std::size_t>(a.rows());
+  const double size = static_cast<double>(n);
+  double largest = 0.0;
+  for (Index j = 0; j < a.cols(); ++j) {
+    const double* x = a.col(j).data();
+    const double* y = b.col(j).data();
+    const double mean_x = portable_math::sum_of(n, [=](std::size_t i) { return x[i]; }) / size;
+    const double mean_y = portable_math::sum_of(n, [=](std::size_t i) { return y[i]; }) / size;
+    const double xx =
+        portable_math::sum_of(n, [=](std::size_t i) { return (x[i] - mean_x) * (x[i] - mean_x); });
+    const double yy =
+        portable_math::sum_of(n, [=](std::size_t i) { return (y[i] - mean_y) * (y[i] - mean_y); });
+    const double xy =
+        portable_math::sum_of(n, [=](std::size_t i) { return (x[i] - mean_x) * (y[i] - mean_y); });
+    if (xx > 0.0 && yy > 0.0) {
+      largest = std::max(largest, std::fabs(xy) / std::sqrt(xx * yy));
+    }
+  }
+  return largest;
+}
+
+}  // namespace tmcmc

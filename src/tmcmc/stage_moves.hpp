@@ -1,0 +1,35 @@
+/// \file
+/// What a stage does with its starts: the chains of each MoveKind, and the adaptation of the proposal scale.
+#pragma once
+
+#include "tmcmc/moves.hpp"
+#include "tmcmc/options.hpp"
+#include "tmcmc/result.hpp"
+
+namespace tmcmc {
+
+struct StageMoveWorkspace {
+  Walkers chains;     // of waste-free
+  Population starts;  // where the mixing is measured
+};
+
+struct StageMoves {
+  MoveCounts counts;
+  Index steps = 0;  ///< Metropolis steps of each chain; of the longest one with growing chains
+};
+
+/// Moves the starts of a stage.
+/// \param kernel  its scale is adapted (ScaleRule::target_acceptance)
+/// \param steps   Metropolis steps of each chain; not used by growing chains
+/// \param stop_when_mixed  goes on after `steps` as Options::mixing_correlation has it (resample-move)
+/// \param walkers in: the starts, of growing chains in ascending order of their `ancestors`; out: the population, of
+///                waste-free (steps + 1) times as many
+StageMoves move_population(const Options& options, MetropolisKernel& kernel, std::span<const Index> ancestors,
+                           Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
+                           StageMoveWorkspace& work);
+
+/// Largest absolute correlation, over the parameters, between the rows of two populations; constant parameters are
+/// left out.
+[[nodiscard]] double largest_correlation(const Population& a, const Population& b);
+
+}  // namespace tmcmc
