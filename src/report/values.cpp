@@ -50,19 +50,32 @@ class Files {
   std::map<std::string, io::CsvTable> tables_;
 };
 
+/// COLUMN=TEXT, COLUMN=BEGINNING* or COLUMN!=TEXT; nullopt if the condition has another form.
+std::optional<bool> meets(const io::CsvTable& table, std::size_t row, const std::string& condition) {
+  const auto equals = condition.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return std::nullopt;
+  }
+  const bool negated = condition[equals - 1] == '!';
+  const std::string_view cell = table.cell(row, condition.substr(0, negated ? equals - 1 : equals));
+  const std::string text = condition.substr(equals + 1);
+  return text.ends_with('*') ? negated != cell.starts_with(text.substr(0, text.size() - 1))
+                             : negated != (cell == text);
+}
+
 /// Rows of the file that meet the conditions in row `row` of the list; at least one.
 std::vector<std::size_t> matching_rows(const io::CsvTable& list, std::size_t row, const io::CsvTable& table) {
   std::vector<std::size_t> rows;
   const auto conditions = split(std::string(list.cell(row, "where")), ';');
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    const bool meets = std::all_of(conditions.begin(), conditions.end(), [&](const std::string& condition) {
-      const auto equals = condition.find('=');
-      if (equals == std::string::npos) {
-        list.fail(row, "where", "COLUMN=TEXT, separated by semicolons");
+    const bool all = std::all_of(conditions.begin(), conditions.end(), [&](const std::string& condition) {
+      const auto met = meets(table, i, condition);
+      if (!met) {
+        list.fail(row, "where", "COLUMN=TEXT, COLUMN=BEGINNING* or COLUMN!=TEXT, separated by semicolons");
       }
-      return table.cell(i, condition.substr(0, equals)) == condition.substr(equals + 1);
+      return *met;
     });
-    if (meets) {
+    if (all) {
       rows.push_back(i);
     }
   }
@@ -153,6 +166,19 @@ std::string derived(const io::CsvTable& list, std::size_t row, const std::string
   return formatted(list, row, "format", result->second, list.cell(row, "format"));
 }
 
+std::vector<double> finite_numbers(const io::CsvTable& table, const std::vector<std::size_t>& rows,
+                                   const std::string& column) {
+  const auto all = table.numbers_or_nan(column);
+  std::vector<double> numbers;
+  for (const std::size_t i : rows) {
+    if (!std::isfinite(all[i])) {
+      table.fail(i, column, "a finite number");
+    }
+    numbers.push_back(all[i]);
+  }
+  return numbers;
+}
+
 std::string from_file(const io::CsvTable& list, std::size_t row, const io::CsvTable& table,
                       const std::string& key, Numbers& numbers) {
   const auto rows = matching_rows(list, row, table);
@@ -167,16 +193,15 @@ std::string from_file(const io::CsvTable& list, std::size_t row, const io::CsvTa
       return *text;
     }
   }
-  std::vector<double> chosen;
-  if (name == "count") {
-    chosen.resize(rows.size());
-  } else {
-    const auto all = table.numbers_or_nan(column);
-    for (const std::size_t i : rows) {
-      if (!std::isfinite(all[i])) {
-        table.fail(i, column, "a finite number");
+  std::vector<double> chosen(name == "count" ? rows.size() : 0);
+  if (name != "count") {
+    const auto minus = column.find(" - ");
+    chosen = finite_numbers(table, rows, column.substr(0, minus));
+    if (minus != std::string::npos) {
+      const auto subtracted = finite_numbers(table, rows, column.substr(minus + 3));
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        chosen[i] -= subtracted[i];
       }
-      chosen.push_back(all[i]);
     }
   }
   const auto value = name == "value" ? chosen[0] : statistic(name, chosen);

@@ -18,8 +18,10 @@ using Roots = std::map<std::string, std::filesystem::path>;
 /// The list has the columns
 ///  - key: lower-case letters, digits and hyphens; not repeated;
 ///  - file: ROOT/NAME.csv; empty for a value derived from two above;
-///  - where: conditions COLUMN=TEXT, separated by semicolons, that a row must meet; empty: every row;
-///  - column: the column of the value; for a derived one, two keys separated by a blank;
+///  - where: conditions COLUMN=TEXT, COLUMN=BEGINNING* or COLUMN!=TEXT, separated by semicolons, that a row must meet;
+///    empty: every row;
+///  - column: the column of the value, or FIRST - SECOND for the difference of two; for a derived value, two keys
+///    separated by a blank;
 ///  - statistic: `value` (the one row that meets the conditions), count, sum, mean, sd (N-1), min, max, max_abs, median,
 ///    q025 or q975 of the rows that do; for a derived one `sum`, `difference`, `product`, `ratio` (first by second) or
 ///    `less` (the text yes or no);
