@@ -69,7 +69,8 @@ std::string fixed(double value, int decimals) {
   if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) {
     text.erase(0, 1);  // a negative number that rounds to 0
   }
-  return fmt::format("\\ensuremath{{{}}}", group_thousands(text));
+  const std::string grouped = group_thousands(text);
+  return text.starts_with('-') ? fmt::format("\\ensuremath{{{}}}", grouped) : grouped;
 }
 
 std::string significant(double value, int digits) {

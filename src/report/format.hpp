@@ -21,8 +21,8 @@ class FormatError : public std::invalid_argument {
 /// chi^2, CoV^2) set as mathematics.
 [[nodiscard]] std::string escape_tex(std::string_view text);
 
-/// A number for text or mathematics. A magnitude below 1e-4, and one of at least 1e6 with `s`, becomes a power of ten; five digits
-/// and more before the point are grouped by thin spaces.
+/// A number for text or mathematics. With significant digits, a magnitude below 1e-4 or of at least 1e6 becomes a power of
+/// ten; five digits and more before the point are grouped by thin spaces.
 /// \param format  "": `significant_digits` of them; "sK": K significant digits; "fK": K digits after the point;
 ///                "percent" or "percentK": 100 times the number, rounded as "" or "sK"; "integer": must be one
 /// \throws FormatError

@@ -13,6 +13,8 @@ cp stages.csv data/generated/sampling_study_stages.csv
 "$bin/table4_iteration_counts" --quiet --output data/generated/table4_iteration_counts.csv
 "$bin/table1_observations" --quiet --output data/generated/table1_observations.csv
 printf 'friction_force_n,frequency_ratio\n0.5,0.8\n' >points.csv
+printf 'key,file,where,column,statistic,format\nruns,generated/sampling_study_runs.csv,,run,count,integer\n' >values.csv
+printf 'key,file,where,columns\nareas,generated/table3_pbox_area.csv,,sampler:text friction_force_n\n' >tables.csv
 
 "$bin/replicated_study" $small --studies 4 --quiet --output data/generated/replicated_study.csv
 
@@ -21,10 +23,11 @@ for e in $experiments; do
   check "$e --version" grep -qE '^[a-z0-9_]+ [0-9]+\.[0-9]+\.[0-9]+$' <("$bin/$e" --version)
   options=""
   [ "$e" = evaluate_model ] && options="--points points.csv"
+  [ "$e" = report_values ] && options="--values values.csv --tables tables.csv"
   case $("$bin/$e" --help) in *"--runs "*) options="$options $small" ;; esac
   "$bin/$e" $options --output "$e.csv" >"$e.report" 2>"$e.err"
   check "$e ends with 0: $(cat "$e.err")" test $? = 0
-  check "$e writes a CSV" test "$(wc -l <"$e.csv")" -ge 2
+  check "$e writes its output" test "$(wc -l <"$e.csv")" -ge 2
   check "$e reports" test -s "$e.report"
   check "$e is silent on stderr" test ! -s "$e.err"
   quiet_output=$("$bin/$e" $options --quiet --output "$e.again.csv" 2>&1)
