@@ -15,16 +15,18 @@ expect_error 2 "x.csv" "$bin/report_values" --values list.csv --tables tables.cs
 
 # tools/check_report: the committed text passes; each of these changes to it does not.
 fresh() { rm -rf paper && cp -r "$source/paper" paper; }
-refused() {  # WHAT FILE SED_SCRIPT TEXT: the check fails and names FILE and TEXT
+changed() {  # COMMAND WHAT FILE SED_SCRIPT TEXT: after the change to FILE the command fails and names TEXT
   fresh
-  sed -i "$3" "paper/$2"
-  check "$1: the change was made" test "$(cmp -s "paper/$2" "$source/paper/$2"; echo $?)" = 1
-  "$source/tools/check_report" paper 2>err
-  check "$1 is refused" test $? = 1
-  check "$1 is named: $(head -n 1 err)" grep -qF -- "$4" err
+  sed -i "$4" "paper/$3"
+  check "$2: the change was made" test "$(cmp -s "paper/$3" "$source/paper/$3"; echo $?)" = 1
+  $1 >out 2>&1
+  check "$2 fails" test $? = 1
+  check "$2 is named: $(head -n 2 out)" grep -qF -- "$5" out
 }
+inspect() { "$source/tools/check_report" paper; }
+refused() { changed inspect "$@"; }
 fresh
-check "the text has no number typed by hand" "$source/tools/check_report" paper
+check "the text has no number typed by hand" inspect
 refused "a number" sections/audit.tex '$s/$/ The force is 0.982 N./' "'0.982' is typed by hand"
 refused "a single digit" sections/audit.tex '$s/$/ It takes $5$ steps./' "'5' is typed by hand"
 refused "a number in words" sections/audit.tex '$s/$/ It takes five steps./' "'five' is typed by hand"
@@ -39,7 +41,7 @@ refused "a constant without a reason" constants.txt '$a 0.982 N' 'expected LITER
 refused "a constant that is a number alone" constants.txt '$a 0.982\twish' 'expected LITERAL, a tab and the reason'
 fresh
 sed -i '$s/$/ % 0.982 in a comment/' paper/sections/audit.tex
-check "a number in a comment is none" "$source/tools/check_report" paper
+check "a number in a comment is none" inspect
 
 # tools/build_report: the same bytes elsewhere; LaTeX's warnings are errors, and the PDF stays as it was.
 if ! command -v pdflatex >/dev/null; then
@@ -47,19 +49,15 @@ if ! command -v pdflatex >/dev/null; then
   finish
   exit
 fi
-build() { "$source/tools/build_report" paper/generated figures report.pdf >out 2>&1; }
+build() { "$source/tools/build_report" paper/generated figures report.pdf; }
 fresh
 cp -r "$source/figures" figures
-build
+build >out 2>&1
 check "the report is typeset: $(head -n 3 out)" test -s report.pdf
 check "the committed report is this, byte by byte" cmp -s report.pdf "$source/paper/report.pdf"
 cp report.pdf before.pdf
-spoiled() {  # WHAT FILE SED_SCRIPT TEXT
-  fresh
-  sed -i "$3" "paper/$2"
-  build
-  check "$1 fails" test $? = 1
-  check "$1 is named: $(head -n 2 out)" grep -qF -- "$4" out
+spoiled() {
+  changed build "$@"
   check "$1 leaves the PDF" cmp -s report.pdf before.pdf
 }
 spoiled "a dangling reference" sections/audit.tex '$s/$/ \\ref{sec:none}/' "sec:none"
