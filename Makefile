@@ -1,24 +1,26 @@
 # The pipeline: published tables -> executables -> generated CSV -> figures and comparison.
-# `make` prints the targets; variables that may be set: PREFIX of outputs (GEN, FIG), CMAKE_FLAGS.
+# `make` prints the targets; variables that may be set: directories of the outputs (GEN, FIG, PAPER), CMAKE_FLAGS.
 
 BUILD := build/release
 BIN := $(BUILD)/bin
 GEN ?= data/generated
 FIG ?= figures
+PAPER ?= paper
 PUB := data/published
 CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures compare test verify identical bench clean
+.PHONY: help deps build all results figures paper compare test verify identical bench clean
 .SECONDARY:
 
 help:
 	@echo 'make deps      install the Debian packages that are missing (root or sudo only if there are any)'
 	@echo 'make build     build the executables into $(BIN)'
-	@echo 'make all       results and figures'
+	@echo 'make all       results, figures and the replication report'
 	@echo 'make results   every generated table in $(GEN)'
 	@echo 'make figures   every figure in $(FIG), as PDF and PNG'
+	@echo 'make paper     the replication report, $(PAPER)/report.pdf'
 	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
 	@echo 'make test      build and run the tests'
 	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
@@ -30,7 +32,8 @@ help:
 # ---------------------------------------------------------------- packages
 
 PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
-  catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils
+  catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
+  texlive-latex-recommended texlive-fonts-recommended
 
 deps:
 	@missing=$$(for p in $(PACKAGES); do \
@@ -77,7 +80,7 @@ RESULTS := $(addprefix $(GEN)/,table1_observations.csv table1_audit.csv fig2_pha
   sampling_study_runs.csv sampling_study_stages.csv table3_pbox_area.csv fig3_pboxes.csv fig4_areas_and_iterations.csv \
   table4_iteration_counts.csv fig5_tempering.csv table5_standard_errors.csv criterion_identity.csv \
   least_squares_baseline.csv compare_published.csv compare_published.md \
-  replicated_study.csv readings.csv endless_criterion.csv verdicts.csv verdicts.md fig9_null_distributions.csv \
+  replicated_study.csv readings.csv endless_criterion.csv verdicts.csv verdicts.md contrasts.csv fig9_null_distributions.csv \
   fig9_null_distributions_counts.csv fig9_null_distributions_printed.csv)
 RESULTS += $(addprefix $(GEN)/,table1_audit_summary.csv exact_posterior.csv exact_posterior_summary.csv \
   exact_posterior_samplers.csv exact_posterior_marginals.csv exact_posterior_histograms.csv pbox_floor.csv \
@@ -155,10 +158,11 @@ $(GEN)/readings.csv: $(BIN)/readings $(PRINTED) | $(GEN)/.
 $(GEN)/endless_criterion.csv: $(BIN)/endless_criterion $(TABLE1) $(PRIOR) | $(GEN)/.
 	$< --observations $(TABLE1) --quiet --output $@
 
-$(GEN)/verdicts.csv $(GEN)/verdicts.md &: $(BIN)/verdicts $(GEN)/replicated_study.csv $(PUB)/claims.csv $(PRINTED)
+$(addprefix $(GEN)/,verdicts.csv verdicts.md contrasts.csv) &: $(BIN)/verdicts $(GEN)/replicated_study.csv $(PUB)/claims.csv $(PRINTED)
 	$< --observations $(TABLE1) --replicated $(GEN)/replicated_study.csv --claims $(PUB)/claims.csv \
 	  --table3 $(PUB)/table3_pbox_area.csv --table4 $(PUB)/table4_iteration_counts.csv \
-	  --quiet --output $(GEN)/verdicts.csv --markdown-output $(GEN)/verdicts.md
+	  --quiet --output $(GEN)/verdicts.csv --markdown-output $(GEN)/verdicts.md \
+	  --contrasts-output $(GEN)/contrasts.csv
 
 NULL := $(addprefix $(GEN)/fig9_null_distributions,.csv _counts.csv _printed.csv)
 
@@ -205,9 +209,29 @@ $(FIG)/$(1).pdf $(FIG)/$(1).png &: figures/$(1).gp figures/style.gp figures/draw
 endef
 $(foreach f,$(FIGURES),$(eval $(call figure_rule,$(f))))
 
+# ---------------------------------------------------------------- replication report
+
+# Every number in the report comes from the tables above, through the lists paper/values.csv and paper/tables.csv.
+VALUES := $(PAPER)/generated/values.tex
+REPORT := $(PAPER)/report.pdf
+REPORT_LISTS := $(addprefix paper/,values.csv tables.csv measured.csv)
+REPORT_SOURCES := $(addprefix paper/,report.tex macros.tex references.bib constants.txt) $(wildcard paper/sections/*.tex)
+
+paper: $(REPORT)
+
+$(PAPER)/generated/.:
+	mkdir -p $@
+
+$(VALUES): $(BIN)/report_values $(REPORT_LISTS) $(RESULTS) $(PRINTED) $(PUB)/stated_values.csv | $(PAPER)/generated/.
+	$< --generated $(GEN) --published $(PUB) --quiet --output $@
+
+$(REPORT): $(VALUES) $(REPORT_SOURCES) $(REPORT_LISTS) $(FIGURES:%=$(FIG)/%.pdf) tools/check_report tools/build_report
+	tools/check_report paper
+	tools/build_report $(PAPER)/generated $(FIG) $@
+
 # ---------------------------------------------------------------- everything
 
-all: results figures README.md
+all: results figures paper README.md
 
 # The tables in the README are copies of generated ones, between markers that name the file.
 README_TABLES := data/generated/compare_published.md data/generated/verdicts.md
@@ -221,8 +245,9 @@ test: $(BUILD)/.built
 
 verify: build
 	rm -rf build/verify
-	$(MAKE) --no-print-directory GEN=build/verify/data/generated FIG=build/verify/figures results figures
-	@status=0; for f in $(RESULTS) $(FIGURE_FILES); do \
+	$(MAKE) --no-print-directory GEN=build/verify/data/generated FIG=build/verify/figures \
+	  PAPER=build/verify/paper results figures paper
+	@status=0; for f in $(RESULTS) $(FIGURE_FILES) $(VALUES) $(REPORT); do \
 	  cmp "$$f" "build/verify/$$f" || status=1; done; \
 	if [ $$status = 0 ]; then echo 'verify: all generated files agree with the committed ones'; \
 	else echo 'verify: files differ'; exit 1; fi

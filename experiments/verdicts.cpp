@@ -33,6 +33,12 @@ std::string describe(const study::ContrastVerdict& c, const char* what) {
       c.replicated.interval.high);
 }
 
+void write_contrast(io::CsvWriter& csv, const char* quantity, const char* statistic,
+                    const study::ContrastVerdict& c) {
+  csv.row(quantity, statistic, c.printed, c.interval.low, c.interval.high, c.p, c.replicated.ratio,
+          c.replicated.interval.low, c.replicated.interval.high, c.replicated.margin);
+}
+
 Judged judge_contrast(const study::ContrastVerdict& c, const char* what) {
   return {c.p >= study::significance_level ? "reproduced" : "untypical",
           study::judge_contrast(c.p, c.replicated), describe(c, what)};
@@ -80,9 +86,13 @@ int main(int argc, char** argv) {
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");
   std::string claims = published("claims.csv");
-  std::string markdown_output;
+  std::string markdown_output, contrasts_output;
   program.add_output("CSV: id, place, claim, number, verdict, evidence");
   program.add_file_output("--markdown-output", markdown_output, "The verdicts as a Markdown table");
+  program.add_file_output(
+      "--contrasts-output", contrasts_output,
+      "CSV of the comparisons of the samplers behind C2 to C5: quantity, statistic, printed, null_low, "
+      "null_high, p, ratio, ratio_low, ratio_high, margin");
   auto& app = program.app();
   app.add_option("--replicated", replicated, "Studies written by replicated_study")->type_name("CSV");
   app.add_option("--table3", table3, "Table 3 as printed")->type_name("CSV");
@@ -172,6 +182,8 @@ int main(int argc, char** argv) {
       csv.emplace(program.output(),
                   std::vector<std::string>{"id", "place", "claim", "number", "verdict", "evidence"});
     }
+    auto contrasts = open_csv(contrasts_output, {"quantity", "statistic", "printed", "null_low", "null_high",
+                                                 "p", "ratio", "ratio_low", "ratio_high", "margin"});
     std::string markdown = "| | claim | number | verdict on the claim | evidence |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const Judged judged = judge(ids[i]);
@@ -185,6 +197,12 @@ int main(int argc, char** argv) {
     }
     if (csv) {
       csv->commit();
+    }
+    if (contrasts) {
+      write_contrast(*contrasts, "friction_force_n", "ratio of areas", force);
+      write_contrast(*contrasts, "natural_frequency_hz", "ratio of areas", frequency);
+      write_contrast(*contrasts, "iterations", "two-sample deviance", iterations);
+      contrasts->commit();
     }
     if (!markdown_output.empty()) {
       io::OutputFile file(markdown_output);

@@ -13,6 +13,8 @@ cp stages.csv data/generated/sampling_study_stages.csv
 "$bin/table4_iteration_counts" --quiet --output data/generated/table4_iteration_counts.csv
 "$bin/table1_observations" --quiet --output data/generated/table1_observations.csv
 printf 'friction_force_n,frequency_ratio\n0.5,0.8\n' >points.csv
+printf 'key,file,where,column,statistic,format\nruns,generated/sampling_study_runs.csv,,run,count,integer\n' >values.csv
+printf 'key,file,where,columns\nareas,generated/table3_pbox_area.csv,,sampler:text friction_force_n\n' >tables.csv
 
 "$bin/replicated_study" $small --studies 4 --quiet --output data/generated/replicated_study.csv
 
@@ -24,9 +26,10 @@ for e in $experiments; do
   [ "$e" = cost_accuracy ] && options="--family moves --studies 1"
   case $("$bin/$e" --help) in *"--runs "*) options="$options --runs 3" ;; esac
   case $("$bin/$e" --help) in *"--samples "*) options="$options --samples 200" ;; esac
+  [ "$e" = report_values ] && options="--values values.csv --tables tables.csv"
   "$bin/$e" $options --output "$e.csv" >"$e.report" 2>"$e.err"
   check "$e ends with 0: $(cat "$e.err")" test $? = 0
-  check "$e writes a CSV" test "$(wc -l <"$e.csv")" -ge 2
+  check "$e writes its output" test "$(wc -l <"$e.csv")" -ge 2
   check "$e reports" test -s "$e.report"
   check "$e is silent on stderr" test ! -s "$e.err"
   quiet_output=$("$bin/$e" $options --quiet --output "$e.again.csv" 2>&1)

@@ -1,0 +1,40 @@
+// The numbers and table rows of the replication report (paper/), as LaTeX definitions. Which they are and where they come
+// from stands in two lists, paper/values.csv and paper/tables.csv; report/values.hpp describes them.
+//
+// Data: the generated and printed tables, and the times of paper/measured.csv.
+
+#include "inputs.hpp"
+#include "report/format.hpp"
+#include "report/values.hpp"
+
+using namespace experiments;
+
+int main(int argc, char** argv) {
+  Program program("report_values", "Numbers and table rows of the replication report, as LaTeX definitions.");
+  std::string values = "paper/values.csv", tables = "paper/tables.csv";
+  std::string generated = "data/generated", printed = "data/published", paper = "paper";
+  program.add_output("TeX: \\reportvalue{KEY}{VALUE} and \\reporttable{KEY}{ROWS}");
+  auto& app = program.app();
+  app.add_option("--values", values, "List of values: key, file, where, column, statistic, format")
+      ->type_name("CSV");
+  app.add_option("--tables", tables, "List of tables: key, file, where, columns")->type_name("CSV");
+  app.add_option("--generated", generated, "Directory of the files generated/...")->type_name("DIR");
+  app.add_option("--published", printed, "Directory of the files published/...")->type_name("DIR");
+  app.add_option("--paper", paper, "Directory of the files paper/...")->type_name("DIR");
+
+  return program.run(argc, argv, [&] {
+    const report::Roots roots = {{"generated", generated}, {"published", printed}, {"paper", paper}};
+    const auto value_list = io::CsvTable::read(values);
+    const auto table_list = io::CsvTable::read(tables);
+    const std::string tex =
+        fmt::format("% Made by report_values from {} and {}.\n", values, tables) +
+        fmt::format("\\reportvalue{{significant-digits}}{{{}}}\n", report::significant_digits) +
+        report::tex_values(value_list, roots) + report::tex_tables(table_list, roots);
+    program.report("{} values and {} tables\n", value_list.rows(), table_list.rows());
+    if (!program.output().empty()) {
+      io::OutputFile file(program.output());
+      file.write(tex);
+      file.commit();
+    }
+  });
+}
