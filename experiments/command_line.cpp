@@ -244,6 +244,10 @@ void RunOptions::add_seed_to(CLI::App& app) {
 void RunOptions::add_to(CLI::App& app) {
   app.add_option("--runs", runs, "Runs of each sampler")->check(count("--runs"));
   add_seed_to(app);
+  add_threads_to(app);
+}
+
+void RunOptions::add_threads_to(CLI::App& app) {
   app.add_option("--threads", threads, "Threads; 0: as many as the machine has. Results do not depend on it")
       ->check(number(
           "--threads", [](double x) { return x >= 0.0 && x <= 4096.0 && x == std::floor(x); },

@@ -97,6 +97,7 @@ struct RunOptions {
 
   void add_to(CLI::App& app);
   void add_seed_to(CLI::App& app);
+  void add_threads_to(CLI::App& app);
   [[nodiscard]] study::StudyOptions study_options() const;
 };
 
