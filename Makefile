@@ -84,7 +84,8 @@ RESULTS := $(addprefix $(GEN)/,table1_observations.csv table1_audit.csv fig2_pha
   fig9_null_distributions_counts.csv fig9_null_distributions_printed.csv)
 RESULTS += $(addprefix $(GEN)/,table1_audit_summary.csv exact_posterior.csv exact_posterior_summary.csv \
   exact_posterior_samplers.csv exact_posterior_marginals.csv exact_posterior_histograms.csv pbox_floor.csv \
-  pbox_floor_pbox.csv model_validation.csv model_validation_errors.csv model_validation_posterior.csv)
+  pbox_floor_pbox.csv pbox_floor_summary.csv model_validation.csv model_validation_errors.csv model_validation_posterior.csv \
+  cost_accuracy.csv calibration.csv calibration_ranks.csv benchmark_problems.csv)
 
 results: $(RESULTS)
 
@@ -137,8 +138,9 @@ $(EXACT) &: $(BIN)/exact_posterior $(TABLE1) $(PRIOR) $(STUDY)
 	  --runs-input $(GEN)/sampling_study_runs.csv --samplers-output $(GEN)/exact_posterior_samplers.csv \
 	  --samples-input $(GEN)/sampling_study_samples.csv --histogram-output $(GEN)/exact_posterior_histograms.csv
 
-$(GEN)/pbox_floor.csv $(GEN)/pbox_floor_pbox.csv &: $(BIN)/pbox_floor $(TABLE1) $(PRIOR) | $(GEN)/.
-	$< --observations $(TABLE1) --quiet --output $(GEN)/pbox_floor.csv --pbox-output $(GEN)/pbox_floor_pbox.csv
+$(addprefix $(GEN)/pbox_floor,.csv _pbox.csv _summary.csv) &: $(BIN)/pbox_floor $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $(GEN)/pbox_floor.csv --pbox-output $(GEN)/pbox_floor_pbox.csv \
+	  --summary-output $(GEN)/pbox_floor_summary.csv
 
 VALIDATION := $(addprefix $(GEN)/model_validation,.csv _errors.csv _posterior.csv)
 
@@ -171,6 +173,15 @@ $(NULL) &: $(BIN)/fig9_null_distributions $(GEN)/replicated_study.csv $(PRINTED)
 	  --table4 $(PUB)/table4_iteration_counts.csv --quiet --output $(GEN)/fig9_null_distributions.csv \
 	  --counts-output $(GEN)/fig9_null_distributions_counts.csv --printed-output $(GEN)/fig9_null_distributions_printed.csv
 
+$(GEN)/cost_accuracy.csv: $(BIN)/cost_accuracy $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $@
+
+$(GEN)/calibration.csv $(GEN)/calibration_ranks.csv &: $(BIN)/calibration $(TABLE1) $(PRIOR) | $(GEN)/.
+	$< --observations $(TABLE1) --quiet --output $(GEN)/calibration.csv --ranks-output $(GEN)/calibration_ranks.csv
+
+$(GEN)/benchmark_problems.csv: $(BIN)/benchmark_problems | $(GEN)/.
+	$< --quiet --output $@
+
 COMPARED := $(GEN)/replicated_study.csv $(GEN)/table1_observations.csv $(GEN)/table3_pbox_area.csv $(GEN)/table4_iteration_counts.csv
 COMPARE = $(BIN)/compare_published --published $(PUB) --replicated $(GEN)/replicated_study.csv --table1 $(GEN)/table1_observations.csv \
   --table3 $(GEN)/table3_pbox_area.csv --table4 $(GEN)/table4_iteration_counts.csv
@@ -185,7 +196,7 @@ compare: $(BIN)/compare_published $(COMPARED) $(PRINTED)
 
 FIGURES := fig1_rig fig2_phase_angle fig3_pboxes fig4_areas_and_iterations fig5_tempering \
   fig6_exact_posterior fig7_pbox_floor fig8_model_validation \
-  fig9_null_distributions fig10_iteration_tables fig11_readings
+  fig9_null_distributions fig10_iteration_tables fig11_readings fig12_cost_accuracy fig13_calibration
 FIGURE_FILES := $(foreach f,$(FIGURES),$(FIG)/$(f).pdf $(FIG)/$(f).png)
 
 figures: $(FIGURE_FILES)
@@ -201,6 +212,8 @@ DATA_fig7_pbox_floor := $(GEN)/pbox_floor_pbox.csv $(GEN)/fig3_pboxes.csv
 DATA_fig8_model_validation := $(GEN)/model_validation.csv $(GEN)/model_validation_errors.csv
 DATA_fig9_null_distributions := $(GEN)/fig9_null_distributions.csv $(GEN)/fig9_null_distributions_printed.csv
 DATA_fig10_iteration_tables := $(GEN)/fig9_null_distributions_counts.csv
+DATA_fig12_cost_accuracy := $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_summary.csv $(PUB)/table3_pbox_area.csv
+DATA_fig13_calibration := $(GEN)/calibration_ranks.csv
 DATA_fig11_readings := $(GEN)/readings.csv $(PUB)/table3_pbox_area.csv
 
 define figure_rule

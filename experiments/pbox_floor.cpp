@@ -4,6 +4,7 @@
 // Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "inputs.hpp"
@@ -65,10 +66,13 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   RunOptions run_options;
   long samples = 1000, studies = 100, points = 401;
-  std::string pbox_output;
+  std::string pbox_output, summary_output;
   program.add_output("CSV of the areas: study and one column a parameter");
   program.add_file_output("--pbox-output", pbox_output,
                           "CSV of the p-boxes of study 0, in the columns of fig3_pboxes");
+  program.add_file_output(
+      "--summary-output", summary_output,
+      "CSV of the areas' quantiles over the studies: probability and one column a parameter");
   auto& app = program.app();
   app.add_option("--samples", samples, "N, draws a run")->check(CLI::Range(2L, 1000000000L));
   app.add_option("--studies", studies, "K, studies")->check(CLI::Range(1L, 1000000000L));
@@ -89,6 +93,8 @@ int main(int argc, char** argv) {
     columns.insert(columns.end(), parameter_columns.begin(), parameter_columns.end());
     auto csv = open_csv(program.output(), columns);
     auto pbox_csv = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper"});
+    columns.front() = "probability";
+    auto summary_csv = open_csv(summary_output, columns);
     std::vector<std::vector<double>> areas(parameter_columns.size(),
                                            std::vector<double>(static_cast<std::size_t>(studies)));
     io::Progress progress("pbox_floor", static_cast<std::size_t>(studies), !program.quiet());
@@ -103,12 +109,19 @@ int main(int argc, char** argv) {
     program.report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n",
                    run_options.runs, samples, studies, options.seed, physics.reading_name);
     program.report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
+    const std::array<double, 3> probabilities = {0.5, 0.025, 0.975};
+    std::array<std::array<double, friction::parameter_count>, 3> quantiles{};
     for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
       auto sorted = areas[p];
       std::sort(sorted.begin(), sorted.end());
-      program.report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p],
-                     study::sample_quantile(sorted, 0.5), study::sample_quantile(sorted, 0.025),
-                     study::sample_quantile(sorted, 0.975));
+      for (std::size_t q = 0; q < quantiles.size(); ++q) {
+        quantiles[q][p] = study::sample_quantile(sorted, probabilities[q]);
+      }
+      program.report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], quantiles[0][p],
+                     quantiles[1][p], quantiles[2][p]);
+    }
+    for (std::size_t q = 0; summary_csv && q < quantiles.size(); ++q) {
+      summary_csv->row(probabilities[q], quantiles[q]);
     }
     for (std::size_t k = 0; csv && k < areas[0].size(); ++k) {
       csv->row(k, areas[0][k], areas[1][k], areas[2][k], areas[3][k]);
@@ -116,7 +129,7 @@ int main(int argc, char** argv) {
     if (pbox_csv) {
       write_pboxes(*pbox_csv, exact_runs(posterior, options.seed, 0, run_options.runs, samples), points);
     }
-    for (auto* output : {&csv, &pbox_csv}) {
+    for (auto* output : {&csv, &pbox_csv, &summary_csv}) {
       if (*output) {
         (*output)->commit();
       }

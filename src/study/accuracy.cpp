@@ -84,7 +84,7 @@ std::vector<Configuration> configurations(const tmcmc::Options& published) {
   for (const tmcmc::Index steps : {1, 2, 5, 10, 20}) {
     add("steps", std::to_string(steps), [steps](auto& o) { o.move_steps = steps; });
   }
-  add("steps", "until correlation 0.7", [](auto& o) { o.mixing_correlation = 0.7; });
+  add("steps", "until correlation 0.9", [](auto& o) { o.mixing_correlation = 0.9; });
   for (const auto& [value, scale] : {std::pair{"0.1", 0.1}, {"0.4", 0.4}, {"0.8", 0.8}}) {
     add("scale", value, [s = scale](auto& o) { o.proposal_scale = s; });
   }

@@ -62,6 +62,7 @@ BenchmarkProblem gaussian(Index d, Index budget, Index chains, Index samples) {
                      .options = tmcmc::recommended_options(budget)};
   p.options.chains = chains;
   p.options.samples = samples;  // more stages than the recommended number of samples leaves room for
+  p.options.cross_fit = d >= 20;
   return p;
 }
 
@@ -227,7 +228,7 @@ FrameFrequencies shear_frame_frequencies(double mass_1, double mass_2, double st
 std::vector<BenchmarkProblem> benchmark_problems() {
   return {gaussian(2, 31000, 10, 2380),
           gaussian(10, 62000, 10, 4000),
-          gaussian(50, 500000, 25, 12500),
+          gaussian(50, 1000000, 100, 25000),
           two_normals(),
           banana(),
           corner(),

@@ -18,7 +18,8 @@ struct BenchmarkProblem {
   /// Where the posterior has two separate modes: whether a point belongs to the first, and the posterior mass of that.
   std::function<bool(const Eigen::Ref<const Eigen::RowVectorXd>&)> in_first_mode;
   double first_mode_mass = 1.0;
-  tmcmc::Options options;  ///< the recommended ones, with the budget and the chains that the problem asks for
+  tmcmc::Options
+      options;  ///< the recommended ones, with budget, samples, chains and cross_fit as the problem asks for
 };
 
 /// Linear-Gaussian posteriors in 2, 10 and 50 dimensions (correlation 0.5^|i-j|), a mixture of two normals of unequal mass

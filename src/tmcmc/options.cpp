@@ -34,6 +34,8 @@ void Options::validate() const {
           "a number between 0 and 1");
   require(independent_fraction >= 0.0 && independent_fraction <= 1.0, "independent_fraction",
           independent_fraction, "a number in [0, 1]");
+  require(!cross_fit || move != MoveKind::growing_chains, "cross_fit", cross_fit,
+          "false with growing chains");
   if (boundary == Boundary::redraw) {
     require(coordinates == Coordinates::natural && !random_subsets && independent_fraction == 0.0, "boundary",
             static_cast<int>(boundary),

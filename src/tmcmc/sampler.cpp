@@ -89,6 +89,41 @@ MetropolisKernel kernel_of(const Problem& problem, const Options& options, const
   return kernel;
 }
 
+/// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that was fitted to the odd
+/// chains, and the other way round; unless one half of the weights is too few for its covariance.
+StageKernels kernels_of(const Problem& problem, const Options& options, const State& from,
+                        std::vector<double>& weights, double weight_sum, std::span<const Index> ancestors) {
+  StageKernels stage;
+  if (options.cross_fit) {
+    const Index chains = from.genealogy.chains;
+    std::vector<double> half(weights.size());
+    for (Index parity = 0; parity < 2; ++parity) {
+      double sum = 0.0;
+      double squares = 0.0;
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        half[i] = static_cast<Index>(i) % chains % 2 == parity ? 0.0 : weights[i];
+        sum += half[i];
+        squares += half[i] * half[i];
+      }
+      if (sum * sum <= 4.0 * static_cast<double>(problem.prior.dimension()) * squares) {
+        stage = {};
+        break;
+      }
+      stage.kernels.push_back(kernel_of(problem, options, from, half, sum));
+      auto& rows = stage.rows.emplace_back();
+      for (std::size_t c = 0; c < ancestors.size(); ++c) {
+        if (ancestors[c] % chains % 2 == parity) {
+          rows.push_back(static_cast<Index>(c));
+        }
+      }
+    }
+  }
+  if (stage.kernels.empty()) {
+    stage.kernels.push_back(kernel_of(problem, options, from, weights, weight_sum));
+  }
+  return stage;
+}
+
 void record_descent(const Options& options, std::span<const Index> ancestors, const State& from, State& to) {
   const Index chains = from.genealogy.chains;
   to.genealogy.chains = static_cast<Index>(ancestors.size());
@@ -146,12 +181,14 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
     std::fill(work.weights.begin(), work.weights.end(), 1.0);
   }
   record.log_evidence_increment = sums.log_mean;
-  MetropolisKernel kernel = kernel_of(problem, options, from, work.weights, sums.sum);
-  kernel.beta = record.beta;
-
   auto& ancestors = work.ancestors;
   ancestors.resize(static_cast<std::size_t>(chains_of(options)));
-  resample(options.resampling, work.weights, key, kernel.stage, ancestors, work.resampling);
+  resample(options.resampling, work.weights, key, static_cast<std::uint32_t>(record.stage), ancestors,
+           work.resampling);
+  StageKernels kernels = kernels_of(problem, options, from, work.weights, sums.sum, ancestors);
+  for (MetropolisKernel& kernel : kernels.kernels) {
+    kernel.beta = record.beta;
+  }
   record.distinct_ancestors = count_distinct(ancestors);
   to.gather(from.points, from.log_likelihood, ancestors);
   record_descent(options, ancestors, from, to);
@@ -159,14 +196,15 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   const bool last = record.beta == 1.0;
   const bool stop_when_mixed = options.mixing_correlation > 0.0 && !(last && options.evaluation_budget > 0);
   const StageMoves moves =
-      move_population(options, kernel, ancestors, steps_of(options, from.evaluations, last), stop_when_mixed,
+      move_population(options, kernels, ancestors, steps_of(options, from.evaluations, last), stop_when_mixed,
                       to, work.mover, work.moves);
   const MoveCounts& counts = moves.counts;
   record.acceptance_rate = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
   record.evaluations = counts.evaluations;
   record.redraws = counts.redraws;
   record.move_steps = moves.steps;
-  record.proposal_scale = options.scale_rule == ScaleRule::fixed ? options.proposal_scale : kernel.scale;
+  record.proposal_scale =
+      options.scale_rule == ScaleRule::fixed ? options.proposal_scale : kernels.kernels.front().scale;
   to.proposal_scale = options.scale_rule == ScaleRule::acceptance_linked
                           ? 1.0 / 9.0 + 8.0 / 9.0 * record.acceptance_rate
                           : record.proposal_scale;

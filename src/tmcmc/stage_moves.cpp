@@ -11,14 +11,22 @@ namespace tmcmc {
 namespace {
 
 /// One step of all walkers, and what the scale learns from it.
-MoveCounts step_and_adapt(const Options& options, MetropolisKernel& kernel, Index step, Walkers& walkers,
+MoveCounts step_and_adapt(const Options& options, StageKernels& stage, Index step, Walkers& walkers,
                           Mover& mover) {
-  const MoveCounts counts =
-      mover.step(kernel, {}, static_cast<std::uint32_t>(step), walkers.points, walkers.log_likelihood);
+  MoveCounts counts;
+  for (std::size_t k = 0; k < stage.kernels.size(); ++k) {
+    const bool all = stage.rows.empty();
+    if (all || !stage.rows[k].empty()) {
+      counts += mover.step(stage.kernels[k], all ? std::span<const Index>() : stage.rows[k],
+                           static_cast<std::uint32_t>(step), walkers.points, walkers.log_likelihood);
+    }
+  }
   if (options.scale_rule == ScaleRule::target_acceptance) {
     const double acceptance = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
-    kernel.scale *= portable_math::exp((acceptance - options.target_acceptance) /
-                                       std::sqrt(static_cast<double>(step + 1)));
+    for (MetropolisKernel& kernel : stage.kernels) {
+      kernel.scale *= portable_math::exp((acceptance - options.target_acceptance) /
+                                         std::sqrt(static_cast<double>(step + 1)));
+    }
   }
   return counts;
 }
@@ -69,8 +77,8 @@ StageMoves grow_chains(const MetropolisKernel& kernel, std::span<const Index> an
   return result;
 }
 
-StageMoves keep_last_states(const Options& options, MetropolisKernel& kernel, Index steps,
-                            bool stop_when_mixed, Walkers& walkers, Mover& mover, Population& starts) {
+StageMoves keep_last_states(const Options& options, StageKernels& kernels, Index steps, bool stop_when_mixed,
+                            Walkers& walkers, Mover& mover, Population& starts) {
   StageMoves result;
   if (stop_when_mixed) {
     starts = walkers.points;
@@ -80,12 +88,12 @@ StageMoves keep_last_states(const Options& options, MetropolisKernel& kernel, In
            largest_correlation(starts, walkers.points) > options.mixing_correlation;
   };
   while (result.steps < steps || go_on()) {
-    result.counts += step_and_adapt(options, kernel, result.steps++, walkers, mover);
+    result.counts += step_and_adapt(options, kernels, result.steps++, walkers, mover);
   }
   return result;
 }
 
-StageMoves keep_all_states(const Options& options, MetropolisKernel& kernel, Index steps, Walkers& walkers,
+StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index steps, Walkers& walkers,
                            Mover& mover, Walkers& chains) {
   StageMoves result;
   std::swap(chains, walkers);
@@ -98,7 +106,7 @@ StageMoves keep_all_states(const Options& options, MetropolisKernel& kernel, Ind
   };
   keep();
   while (result.steps < steps) {
-    result.counts += step_and_adapt(options, kernel, result.steps++, chains, mover);
+    result.counts += step_and_adapt(options, kernels, result.steps++, chains, mover);
     keep();
   }
   return result;
@@ -121,18 +129,18 @@ void Walkers::gather(const Population& from_points, const Eigen::VectorXd& from_
   }
 }
 
-StageMoves move_population(const Options& options, MetropolisKernel& kernel, std::span<const Index> ancestors,
+StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
                            Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work) {
   switch (options.move) {
     case MoveKind::growing_chains:
-      return grow_chains(kernel, ancestors, walkers, mover);
+      return grow_chains(kernels.kernels.front(), ancestors, walkers, mover);
     case MoveKind::waste_free:
-      return keep_all_states(options, kernel, steps, walkers, mover, work.chains);
+      return keep_all_states(options, kernels, steps, walkers, mover, work.chains);
     case MoveKind::resample_move:
       break;
   }
-  return keep_last_states(options, kernel, steps, stop_when_mixed, walkers, mover, work.starts);
+  return keep_last_states(options, kernels, steps, stop_when_mixed, walkers, mover, work.starts);
 }
 
 double largest_correlation(const Population& a, const Population& b) {

@@ -2,6 +2,8 @@
 /// What a stage does with its starts: the chains of each MoveKind, and the adaptation of the proposal scale.
 #pragma once
 
+#include <vector>
+
 #include "tmcmc/moves.hpp"
 #include "tmcmc/options.hpp"
 #include "tmcmc/result.hpp"
@@ -13,18 +15,24 @@ struct StageMoveWorkspace {
   Population starts;  // where the mixing is measured
 };
 
+/// The kernel of a stage; with Options::cross_fit one for each half of the starts.
+struct StageKernels {
+  std::vector<MetropolisKernel> kernels;  ///< one or two
+  std::vector<std::vector<Index>> rows;   ///< rows of each of two kernels; empty for one
+};
+
 struct StageMoves {
   MoveCounts counts;
   Index steps = 0;  ///< Metropolis steps of each chain; of the longest one with growing chains
 };
 
 /// Moves the starts of a stage.
-/// \param kernel  its scale is adapted (ScaleRule::target_acceptance)
+/// \param kernels  their scale is adapted (ScaleRule::target_acceptance)
 /// \param steps   Metropolis steps of each chain; not used by growing chains
 /// \param stop_when_mixed  goes on after `steps` as Options::mixing_correlation has it (resample-move)
 /// \param walkers in: the starts, of growing chains in ascending order of their `ancestors`; out: the population, of
 ///                waste-free (steps + 1) times as many
-StageMoves move_population(const Options& options, MetropolisKernel& kernel, std::span<const Index> ancestors,
+StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
                            Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work);
 
