@@ -15,8 +15,8 @@ MoveCounts step_and_adapt(const Options& options, MetropolisKernel& kernel, Inde
                           Mover& mover) {
   const MoveCounts counts =
       mover.step(kernel, {}, static_cast<std::uint32_t>(step), walkers.points, walkers.log_likelihood);
-  if (options.scale_rule == ScaleRule::target_acceptance) {
-    const double acceptance = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
+  if (options.scale_rule == ScaleRule::target_acceptance && counts.walks > 0) {
+    const double acceptance = static_cast<double>(counts.accepted_walks) / static_cast<double>(counts.walks);
     kernel.scale *= portable_math::exp((acceptance - options.target_acceptance) /
                                        std::sqrt(static_cast<double>(step + 1)));
   }
@@ -69,14 +69,14 @@ StageMoves grow_chains(const MetropolisKernel& kernel, std::span<const Index> an
   return result;
 }
 
-StageMoves keep_last_states(const Options& options, MetropolisKernel& kernel, Index steps,
-                            bool stop_when_mixed, Walkers& walkers, Mover& mover, Population& starts) {
+StageMoves keep_last_states(const Options& options, MetropolisKernel& kernel, Index steps, Index most_steps,
+                            Walkers& walkers, Mover& mover, Population& starts) {
   StageMoves result;
-  if (stop_when_mixed) {
+  if (most_steps > steps) {
     starts = walkers.points;
   }
   const auto go_on = [&] {
-    return stop_when_mixed && result.steps < options.max_move_steps &&
+    return result.steps < most_steps &&
            largest_correlation(starts, walkers.points) > options.mixing_correlation;
   };
   while (result.steps < steps || go_on()) {
@@ -122,7 +122,7 @@ void Walkers::gather(const Population& from_points, const Eigen::VectorXd& from_
 }
 
 StageMoves move_population(const Options& options, MetropolisKernel& kernel, std::span<const Index> ancestors,
-                           Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
+                           Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work) {
   switch (options.move) {
     case MoveKind::growing_chains:
@@ -132,7 +132,7 @@ StageMoves move_population(const Options& options, MetropolisKernel& kernel, std
     case MoveKind::resample_move:
       break;
   }
-  return keep_last_states(options, kernel, steps, stop_when_mixed, walkers, mover, work.starts);
+  return keep_last_states(options, kernel, steps, most_steps, walkers, mover, work.starts);
 }
 
 double largest_correlation(const Population& a, const Population& b) {
