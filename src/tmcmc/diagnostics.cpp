@@ -11,8 +11,6 @@ namespace tmcmc {
 
 namespace {
 
-constexpr double fewest_groups = 6.0;
-
 /// Group of each row, from the group of its chain.
 std::vector<Index> by_row(std::span<const Index> of_chain, Index rows) {
   std::vector<Index> groups(static_cast<std::size_t>(rows));
