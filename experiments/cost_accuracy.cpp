@@ -71,9 +71,10 @@ int main(int argc, char** argv) {
         known(exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior));
     auto published = reading.sampler;
     published.infeasible_level = reading.infeasible_log_likelihood;
-    auto settings = study::configurations(published);
-    std::erase_if(settings, [&](const auto& s) { return !only.empty() && s.family != only; });
-    if (settings.empty()) {
+    const auto settings = study::configurations(published);
+    const auto chosen = [&](const auto& s) { return only.empty() || s.family == only; };
+    const auto chosen_count = std::count_if(settings.begin(), settings.end(), chosen);
+    if (chosen_count == 0) {
       throw std::invalid_argument("--family: value '" + only + "': expected the family of a setting");
     }
 
@@ -91,9 +92,13 @@ int main(int argc, char** argv) {
                    studies, run_options.runs, run_options.seed, physics.reading_name, truth.log_evidence);
     program.report("{:<12} {:<28} {:>9} {:>7} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "", "", "evals", "stages",
                    "area F_mu", "area w_n", "lnZ bias", "lnZ rms", "s.e.");
-    io::Progress progress("cost_accuracy", settings.size() * static_cast<std::size_t>(studies),
+    io::Progress progress("cost_accuracy", static_cast<std::size_t>(chosen_count * studies),
                           !program.quiet());
-    for (std::uint32_t s = 0; s < settings.size(); ++s) {
+    for (std::uint32_t s = 0; s < settings.size();
+         ++s) {  // a setting has its stream, whatever others are run
+      if (!chosen(settings[s])) {
+        continue;
+      }
       std::vector<study::Run> runs;
       std::vector<std::vector<double>> areas(parameter_columns.size());
       for (long k = 0; k < studies; ++k) {

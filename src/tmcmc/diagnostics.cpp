@@ -11,8 +11,6 @@ namespace tmcmc {
 
 namespace {
 
-constexpr double fewest_groups = 6.0;
-
 /// Group of each row, from the group of its chain.
 std::vector<Index> by_row(std::span<const Index> of_chain, Index rows) {
   std::vector<Index> groups(static_cast<std::size_t>(rows));
@@ -23,9 +21,9 @@ std::vector<Index> by_row(std::span<const Index> of_chain, Index rows) {
 }
 
 std::vector<Index> groups_of(const Genealogy& genealogy, Index rows) {
-  for (const auto* groups : {&genealogy.founders, &genealogy.parents}) {
-    if (!groups->empty() && effective_groups(*groups) >= fewest_groups) {
-      return by_row(*groups, rows);
+  for (const auto& ancestors : genealogy.ancestors) {
+    if (effective_groups(ancestors) >= fewest_groups) {
+      return by_row(ancestors, rows);
     }
   }
   std::vector<Index> chains(static_cast<std::size_t>(genealogy.chains));

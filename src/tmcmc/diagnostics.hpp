@@ -9,8 +9,8 @@ namespace tmcmc {
 
 /// Effective number of independent draws behind the mean of each parameter: the variance of a parameter over the variance
 /// of its mean, the latter from sums over groups of related samples (Chan and Lai 2013; Lee and Whiteley 2018). The groups
-/// are the descendants of one draw from the prior; where fewer than 6 of these are left in effect, of one chain of the
-/// stage before; where fewer than 6 of these, the chains.
+/// are the descendants of one chain of an earlier stage, of the earliest from which fewest_groups are left in
+/// effect; where there is none, the chains themselves.
 /// \return  one entry a parameter; 0 for a constant parameter or a single chain
 [[nodiscard]] Eigen::VectorXd effective_sample_sizes(const Population& points, const Genealogy& genealogy);
 

@@ -15,40 +15,87 @@ namespace tmcmc {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double smallest_sum = 1e-300;  // of the overlap of two populations
+constexpr double smallest_slope = 1e-3;  // of populations in the wrong order
 
-PORTABLE_MATH_MULTIVERSION
-void weigh(const double* log_likelihood, std::size_t n, double step, double shift, double* weights) {
-  for (std::size_t i = 0; i < n; ++i) {
-    weights[i] = step > 0.0 ? portable_math::exp(step * (log_likelihood[i] - shift)) : 1.0;
-  }
+/// Logarithms of the weights, relative to the largest; all alike for a step of 0.
+void log_weigh(ConstDoubles log_likelihood, double step, double largest, std::vector<double>& log_weights) {
+  log_weights.resize(log_likelihood.size());
+  std::transform(log_likelihood.begin(), log_likelihood.end(), log_weights.begin(),
+                 [=](double value) { return step > 0.0 ? step * (value - largest) : 0.0; });
 }
 
-/// Means over one population of value / (s w + (1-s) r) and of its square over value, value being w or 1.
-struct BridgeMeans {
-  double mean;
+/// 1 / (1 + exp(-x)), without overflow.
+PORTABLE_MATH_INLINE double logistic(double x) {
+  const double e = portable_math::exp(x > 0.0 ? -x : x);
+  return (x > 0.0 ? 1.0 : e) / (1.0 + e);
+}
+
+/// Sums over a population of p = logistic(sign (log_weight - centre)) and of p (1 - p).
+struct LogisticSums {
+  double total;
   double slope;
 };
 
+/// Where a population has nothing in common with the other, both are the least number, as in the limit.
 PORTABLE_MATH_MULTIVERSION
-BridgeMeans means_before(const double* w, std::size_t n, double s, double rest) {
-  const double size = static_cast<double>(n);
-  const double mean = portable_math::sum_of(n, [=](std::size_t i) { return w[i] / (s * w[i] + rest); });
+LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign, double centre) {
+  const double total =
+      portable_math::sum_of(n, [=](std::size_t i) { return logistic(sign * (log_weights[i] - centre)); });
   const double slope = portable_math::sum_of(n, [=](std::size_t i) {
-    const double q = 1.0 / (s * w[i] + rest);
-    return w[i] * q * q;
+    const double p = logistic(sign * (log_weights[i] - centre));
+    return p - p * p;
   });
-  return {mean / size, slope / size};
+  return total > smallest_sum ? LogisticSums{total, slope} : LogisticSums{smallest_sum, smallest_sum};
 }
 
-PORTABLE_MATH_MULTIVERSION
-BridgeMeans means_after(const double* w, std::size_t n, double s, double rest) {
-  const double size = static_cast<double>(n);
-  const double mean = portable_math::sum_of(n, [=](std::size_t i) { return 1.0 / (s * w[i] + rest); });
-  const double slope = portable_math::sum_of(n, [=](std::size_t i) {
-    const double q = 1.0 / (s * w[i] + rest);
-    return q * q;
-  });
-  return {mean / size, slope / size};
+/// log(m / (feasible - m)) below the least finite log-weight, the logistic sum over both populations is m or more.
+double least_centre(const std::vector<double>& before, const std::vector<double>& after) {
+  double least = 0.0;
+  double feasible = 0.0;
+  for (const auto* population : {&before, &after}) {
+    for (const double value : *population) {
+      least = value == -infinity ? least : std::min(least, value);
+      feasible += value == -infinity ? 0.0 : 1.0;
+    }
+  }
+  const double m = static_cast<double>(after.size());
+  return least - std::max(portable_math::log(m / (feasible - m)), 0.0);
+}
+
+/// Solution of the equation of the bridge: the centre of the logistic functions, which sum up to the same in both
+/// populations there.
+struct Bridge {
+  double centre;
+  double log_size_ratio;  ///< log(m / n); the log-ratio of the evidences is the centre plus this
+  double overlap;         ///< sum of the logistic functions over either population
+  double slope;           ///< by which a relative error of either sum is divided in the log-ratio
+};
+
+Bridge solve_bridge(const std::vector<double>& before, const std::vector<double>& after) {
+  const std::size_t n = before.size();
+  const std::size_t m = after.size();
+  double overlap = 0.0;
+  double slope = 1.0;  // minus the derivative of the residual
+  const auto residual = [&](double centre) {
+    const LogisticSums a = logistic_sums(before.data(), n, 1.0, centre);
+    const LogisticSums b = logistic_sums(after.data(), m, -1.0, centre);
+    overlap = a.total;
+    slope = std::max(a.slope / a.total + b.slope / b.total, smallest_slope);
+    return std::make_tuple(portable_math::log(a.total / b.total), -slope);
+  };
+  const double log_size_ratio = portable_math::log(static_cast<double>(m) / static_cast<double>(n));
+  const double lowest = least_centre(before, after) - 1.0;
+  const double highest = std::max(-log_size_ratio, 0.0) + 1.0;
+  const double log_mean_weight = portable_math::log(
+      portable_math::sum_of(n, [&](std::size_t i) { return portable_math::exp(before[i]); }) /
+      static_cast<double>(n));
+  std::uintmax_t iterations = 100;
+  const double centre = boost::math::tools::newton_raphson_iterate(
+      residual, std::clamp(log_mean_weight - log_size_ratio, lowest, highest), lowest, highest, 40,
+      iterations);
+  residual(centre);
+  return {centre, log_size_ratio, overlap, slope};
 }
 
 }  // namespace
@@ -77,70 +124,75 @@ double grouped_variance(ConstDoubles values, std::span<const Index> groups) {
 
 void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, std::span<const Index> parents,
                          double step) {
-  const std::size_t n = before.size();
-  const std::size_t m = after.size();
   const double largest = std::max(*std::max_element(before.begin(), before.end()),
                                   *std::max_element(after.begin(), after.end()));
-  std::vector<double>& w = weights_before_;
-  std::vector<double>& v = weights_after_;
-  w.resize(n);
-  v.resize(m);
-  weigh(before.data(), n, step, largest, w.data());
-  weigh(after.data(), m, step, largest, v.data());
+  log_weigh(before, step, largest, log_weights_before_);
+  log_weigh(after, step, largest, log_weights_after_);
+  const Bridge bridge = solve_bridge(log_weights_before_, log_weights_after_);
+  log_evidence_ += step * largest + (bridge.centre + bridge.log_size_ratio);
+  const double n = static_cast<double>(before.size());
+  const double m = static_cast<double>(after.size());
+  least_variance_ += std::max(1.0 / bridge.overlap - 1.0 / n - 1.0 / m, 0.0);
 
-  const double s = static_cast<double>(m) / static_cast<double>(n + m);
-  BridgeMeans a{};
-  BridgeMeans b{};
-  double slope = 1.0;  // minus the derivative of the residual below
-  const auto residual = [&](double log_ratio) {
-    const double rest = (1.0 - s) * portable_math::exp(log_ratio);
-    a = means_before(w.data(), n, s, rest);
-    b = means_after(v.data(), m, s, rest);
-    slope = 1.0 + rest * (a.slope / a.mean - b.slope / b.mean);
-    return std::make_tuple(portable_math::log(a.mean / b.mean) - log_ratio, -slope);
+  if (influence_.empty()) {  // each draw from the prior is a chain
+    influence_.emplace_back(before.size(), 0.0);
+    parents_.emplace_back();
+  }
+  influence_.emplace_back(parents.size(), 0.0);
+  parents_.emplace_back(parents.begin(), parents.end());
+  const auto add_influence = [&](const std::vector<double>& log_weights, double sign,
+                                 std::vector<double>& influence) {
+    const double mean = 1.0 / static_cast<double>(log_weights.size());
+    for (std::size_t i = 0; i < log_weights.size(); ++i) {
+      const double part = logistic(sign * (log_weights[i] - bridge.centre)) / bridge.overlap;
+      influence[i % influence.size()] += sign * (part - mean) / bridge.slope;
+    }
   };
-  const double lowest = -744.0;  // weights are at most 1, and the root lies between the least and the largest
-  const double start = portable_math::log(portable_math::sum_of(n, [&](std::size_t i) { return w[i]; }) /
-                                          static_cast<double>(n));
-  std::uintmax_t iterations = 100;
-  const double log_ratio = boost::math::tools::newton_raphson_iterate(
-      residual, std::clamp(start, lowest, 0.0), lowest, 0.0, 40, iterations);
-  residual(log_ratio);
-  log_evidence_ += step * largest + log_ratio;
-
-  const double rest = (1.0 - s) * portable_math::exp(log_ratio);
-  const std::size_t chains = parents.size();
-  if (influence_.empty()) {  // the draws from the prior
-    influence_.assign(n, 0.0);
-    parents_.resize(n);
-    std::iota(parents_.begin(), parents_.end(), Index{0});
-  }
-  const std::size_t chains_before = influence_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    influence_[i % chains_before] +=
-        (w[i] / (s * w[i] + rest) / a.mean - 1.0) / static_cast<double>(n) / slope;
-  }
-  variance_ += variance_of(influence_);
-  std::swap(previous_influence_, influence_);
-  influence_.assign(chains, 0.0);
-  for (std::size_t i = 0; i < m; ++i) {
-    influence_[i % chains] -= (1.0 / (s * v[i] + rest) / b.mean - 1.0) / static_cast<double>(m) / slope;
-  }
-  parents_.assign(parents.begin(), parents.end());
+  add_influence(log_weights_before_, 1.0, influence_[influence_.size() - 2]);
+  add_influence(log_weights_after_, -1.0, influence_.back());
 }
 
-double BridgeEvidence::variance_of(const std::vector<double>& influence) const {
-  std::vector<Index> own(influence.size());
-  std::iota(own.begin(), own.end(), Index{0});
-  double variance = grouped_variance(influence, effective_groups(parents_) > 1.0 ? parents_ : own);
-  for (std::size_t c = 0; c < influence.size() && !previous_influence_.empty(); ++c) {
-    variance += 2.0 * influence[c] * previous_influence_[static_cast<std::size_t>(parents_[c])];
+double BridgeEvidence::variance_up_to(std::size_t last) const {
+  std::vector<Index> group(influence_[last].size());  // of each chain: its ancestor in stage `first`
+  std::iota(group.begin(), group.end(), Index{0});
+  std::size_t first = last;
+  for (std::vector<Index> earlier = group; first > 0; --first) {
+    for (Index& chain : earlier) {
+      chain = parents_[first][static_cast<std::size_t>(chain)];
+    }
+    const double groups = effective_groups(earlier);
+    if (groups <= 1.0 || (groups < fewest_groups && first < last)) {
+      break;
+    }
+    group = earlier;
+  }
+  double variance = grouped_variance(influence_[last], group);
+  if (first < last) {
+    std::vector<double> earlier_sums =
+        influence_[first];  // of the descendants of each chain of stage `first`
+    std::vector<Index> group_before(earlier_sums.size());
+    std::iota(group_before.begin(), group_before.end(), Index{0});
+    for (std::size_t stage = first + 1; stage < last; ++stage) {
+      std::vector<Index> of_stage;
+      for (std::size_t c = 0; c < influence_[stage].size(); ++c) {
+        of_stage.push_back(group_before[static_cast<std::size_t>(parents_[stage][c])]);
+        earlier_sums[static_cast<std::size_t>(of_stage.back())] += influence_[stage][c];
+      }
+      group_before = std::move(of_stage);
+    }
+    for (std::size_t c = 0; c < group.size(); ++c) {
+      variance += 2.0 * influence_[last][c] * earlier_sums[static_cast<std::size_t>(group[c])];
+    }
   }
   return variance;
 }
 
 double BridgeEvidence::standard_error() const {
-  return influence_.empty() ? 0.0 : std::sqrt(std::max(variance_ + variance_of(influence_), 0.0));
+  double variance = 0.0;
+  for (std::size_t stage = 0; stage < influence_.size(); ++stage) {
+    variance += variance_up_to(stage);
+  }
+  return std::sqrt(std::max(variance, least_variance_));
 }
 
 }  // namespace tmcmc

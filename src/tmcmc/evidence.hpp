@@ -11,12 +11,15 @@ namespace tmcmc {
 /// The ratio Z_{t+1} / Z_t of the tempered evidences from the populations on both sides of a step (Bennett 1976; Meng
 /// and Wong 1996): the root r of
 ///
-///     mean_t[ w / (s w + (1-s) r) ] = mean_{t+1}[ r / (s w + (1-s) r) ],   w = L^step,  s = n_{t+1} / (n_t + n_{t+1}).
+///     mean_t[ w / (s w + (1-s) r) ] = mean_{t+1}[ r / (s w + (1-s) r) ],   w = L^step,  s = n_{t+1} / (n_t + n_{t+1}),
 ///
-/// It uses no further evaluation, and unlike the mean weight of population t alone it also hears of the regions that
-/// population t+1 has found. The standard error adds up the influence of each chain on the sum of the logarithms and groups
-/// it by the chain of the stage before that it started from (fixed lag of one stage; Olsson and Douc 2019), so that chains
-/// with a common ancestor count as one. What no chain has seen is not in it.
+/// solved in log(r), where both sides are sums of logistic functions and nothing overflows. It uses no further evaluation, and unlike the mean weight of population t alone it also hears of the regions that
+/// population t+1 has found. The standard error adds up the influence of each chain on the sum of the logarithms, and
+/// counts chains with a common ancestor as one: those of each stage are grouped by their ancestors in the earliest stage from
+/// which fewest_groups are left in effect, the stage before at the least, and the covariances with the stages in between
+/// are added (Olsson and Douc 2019, with a lag that follows the genealogy). It is at least that of independent samples, the
+/// sum of 1/S - 1/n_t - 1/n_{t+1} with S = n_t mean_t[s w / (s w + (1-s) r)] (Bennett 1976), which is large where the
+/// populations hardly overlap. What no chain has seen is not in it.
 class BridgeEvidence {
  public:
   /// Adds a step. Sample i of a population belongs to chain i modulo the number of chains.
@@ -27,25 +30,29 @@ class BridgeEvidence {
 
   [[nodiscard]] double log_evidence() const { return log_evidence_; }
 
-  /// Where all chains of a stage started from one chain, they are taken one by one. Infinity for a single chain.
+  /// 0 before the first step. Where all chains of a stage started from one chain, they are taken one by one. Infinity for
+  /// a single chain.
   [[nodiscard]] double standard_error() const;
 
  private:
-  [[nodiscard]] double variance_of(const std::vector<double>& influence) const;
+  /// Variance of what the chains of a stage add, and twice its covariance with what those before have added.
+  [[nodiscard]] double variance_up_to(std::size_t stage) const;
 
   double log_evidence_ = 0.0;
-  double variance_ = 0.0;                   // of the stages whose influence is complete
-  std::vector<double> previous_influence_;  // of the chains of the stage before the latest
-  std::vector<double> influence_;           // of the chains of the latest stage, so far
-  std::vector<Index> parents_;              // of the chains of the latest stage
-  std::vector<double> weights_before_;      // work space
-  std::vector<double> weights_after_;
+  double least_variance_ = 0.0;                 // of independent samples
+  std::vector<std::vector<double>> influence_;  // of each chain of each stage, the prior being the first
+  std::vector<std::vector<Index>> parents_;     // of each chain of each stage
+  std::vector<double> log_weights_before_;      // work space
+  std::vector<double> log_weights_after_;
 };
 
 /// Sum over groups g of (sum of the values in g)^2, times G / (G - 1) with G = n^2 / sum_g n_g^2 the effective number of
 /// groups: the variance of a sum of n values of mean zero, independent between groups. Infinity for a single group.
 /// \param groups  group of each value, from 0
 [[nodiscard]] double grouped_variance(ConstDoubles values, std::span<const Index> groups);
+
+/// The least effective number of groups from which a variance is estimated, unless there are no more groups than that.
+constexpr double fewest_groups = 6.0;
 
 /// The effective number of groups n^2 / sum_g n_g^2.
 [[nodiscard]] double effective_groups(std::span<const Index> groups);

@@ -18,6 +18,8 @@ constexpr std::size_t lanes = ProposalLanes::lanes;
 MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
   proposals += other.proposals;
   accepted += other.accepted;
+  walks += other.walks;
+  accepted_walks += other.accepted_walks;
   evaluations += other.evaluations;
   redraws += other.redraws;
   return *this;
@@ -28,12 +30,14 @@ struct Mover::Block {
       : candidates(rows, dimension),
         candidate_log_likelihood(rows),
         candidate_rows(static_cast<std::size_t>(rows)),
+        independent(static_cast<std::size_t>(rows)),
         thresholds(static_cast<std::size_t>(rows)),
         proposals(dimension) {}
 
   Population candidates;  // proposals inside the box, in the order of their rows
   Eigen::VectorXd candidate_log_likelihood;
   std::vector<Index> candidate_rows;
+  std::vector<double> independent;  // 1 for independent proposals
   std::vector<double>
       thresholds;  // log-uniform less the correction: least log-ratio of the likelihoods to accept
   ProposalLanes proposals;
@@ -94,6 +98,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
       block.candidates(candidates, j) = proposals.parameter(j)[lane];
     }
     block.candidate_rows[static_cast<std::size_t>(candidates)] = static_cast<Index>(row_ids[lane]);
+    block.independent[static_cast<std::size_t>(candidates)] = proposals.independent()[lane];
     block.thresholds[static_cast<std::size_t>(candidates)] = log_uniform - proposals.log_correction()[lane];
     ++candidates;
   };
@@ -102,6 +107,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
       std::copy_n(proposals.parameter(j).begin(), count, block.candidates.col(j).data() + candidates);
     }
     std::copy_n(row_ids.begin(), count, block.candidate_rows.begin() + candidates);
+    std::copy_n(proposals.independent().begin(), count, block.independent.begin() + candidates);
     std::transform(log_u.begin(), log_u.begin() + static_cast<std::ptrdiff_t>(count),
                    proposals.log_correction().begin(), block.thresholds.begin() + candidates, std::minus<>());
     candidates += static_cast<Index>(count);
@@ -114,7 +120,11 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
       row_ids[i] = static_cast<std::uint64_t>(rows == nullptr ? position : rows[position]);
     }
     id.attempt = 0;
-    if (propose(count, &log_u) == count) {
+    const std::size_t inside_count = propose(count, &log_u);
+    counts.walks += static_cast<Index>(
+        std::count(proposals.independent().begin(),
+                   proposals.independent().begin() + static_cast<std::ptrdiff_t>(count), 0.0));
+    if (inside_count == count) {
       keep_all(count);
       continue;
     }
@@ -167,6 +177,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
       }
       log_likelihood[row] = block.candidate_log_likelihood[k];
       ++counts.accepted;
+      counts.accepted_walks += block.independent[static_cast<std::size_t>(k)] == 0.0 ? 1 : 0;
     }
   }
   return counts;

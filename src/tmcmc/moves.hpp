@@ -12,6 +12,8 @@ namespace tmcmc {
 struct MoveCounts {
   Index proposals = 0;
   Index accepted = 0;
+  Index walks = 0;  ///< proposals by a random walk, not independent ones
+  Index accepted_walks = 0;
   Index evaluations = 0;  ///< log-likelihoods asked for; proposals outside the box need none
   Index redraws = 0;
 

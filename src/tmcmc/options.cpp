@@ -1,7 +1,7 @@
 #include "tmcmc/options.hpp"
 
 #include <cmath>
-#include <string>
+#include <sstream>
 
 namespace tmcmc {
 
@@ -10,8 +10,9 @@ namespace {
 template <class T>
 void require(bool condition, const char* field, T value, const char* expected) {
   if (!condition) {
-    throw std::invalid_argument(std::string("options.") + field + " = " + std::to_string(value) +
-                                ": expected " + expected);
+    std::ostringstream message;
+    message << "options." << field << " = " << value << ": expected " << expected;
+    throw std::invalid_argument(message.str());
   }
 }
 
@@ -24,6 +25,11 @@ void Options::validate() const {
   require(mixing_correlation >= 0.0 && mixing_correlation < 1.0, "mixing_correlation", mixing_correlation,
           "a number in [0, 1)");
   require(max_move_steps >= 1, "max_move_steps", max_move_steps, "at least 1");
+  if (mixing_correlation > 0.0) {
+    require(move == MoveKind::resample_move, "mixing_correlation", mixing_correlation,
+            "0 unless move is resample_move");
+    require(max_move_steps >= move_steps, "max_move_steps", max_move_steps, "at least options.move_steps");
+  }
   if (move == MoveKind::waste_free) {
     require(chains >= 1 && chains < samples && samples % chains == 0, "chains", chains,
             "a divisor of the number of samples, less than it");
@@ -32,14 +38,15 @@ void Options::validate() const {
           "a positive number");
   require(target_acceptance > 0.0 && target_acceptance < 1.0, "target_acceptance", target_acceptance,
           "a number between 0 and 1");
+  require(scale_rule != ScaleRule::target_acceptance || move != MoveKind::growing_chains, "scale_rule",
+          "target_acceptance", "another rule with growing chains");
   require(independent_fraction >= 0.0 && independent_fraction <= 1.0, "independent_fraction",
           independent_fraction, "a number in [0, 1]");
   require(!cross_fit || move != MoveKind::growing_chains, "cross_fit", cross_fit,
           "false with growing chains");
   if (boundary == Boundary::redraw) {
     require(coordinates == Coordinates::natural && !random_subsets && independent_fraction == 0.0, "boundary",
-            static_cast<int>(boundary),
-            "reject, since only random walks in all natural coordinates can be redrawn");
+            "redraw", "reject, since only random walks in all natural coordinates can be redrawn");
   }
   require(max_redraws >= 1, "max_redraws", max_redraws, "at least 1");
   require(max_stages >= 1, "max_stages", max_stages, "at least 1");

@@ -27,11 +27,12 @@ enum class MoveKind {
 enum class ScaleRule {
   fixed,  ///< proposal_scale (Eq. 5: 0.2)
   dimension,  ///< 2.38 / sqrt(d), d the number of coordinates that a proposal changes (Roberts, Gelman and Gilks 1997)
-  /// starts as `dimension`; after step k of a stage its logarithm grows by (acceptance rate - target_acceptance) /
-  /// sqrt(k), and the next stage goes on from there (after Betz, Papaioannou and Straub 2016, who adapt after groups of
-  /// chains)
+  /// starts as `dimension`; after step k of a stage its logarithm grows by (acceptance rate of the random walks -
+  /// target_acceptance) / sqrt(k), and the next stage goes on from there (after Betz, Papaioannou and Straub 2016, who
+  /// adapt after groups of chains). Not for growing chains.
   target_acceptance,
-  acceptance_linked  ///< 1/9 + 8/9 of the acceptance rate of the stage before (Minson, Simons and Beck 2013); first 1
+  /// 1/9 + 8/9 of the acceptance rate of the random walks of the stage before (Minson, Simons and Beck 2013); first 1
+  acceptance_linked
 };
 
 struct Options {
@@ -43,10 +44,10 @@ struct Options {
   Index move_steps =
       3;  ///< Metropolis steps a chain and stage (resample-move); the least number with mixing_correlation
   /// If positive: a stage of resample-move goes on until the correlation between the states of the chains and their
-  /// starts is at most this in every parameter, or max_move_steps are done.
+  /// starts is at most this in every parameter, or max_move_steps are done. Only with resample-move.
   double mixing_correlation = 0.0;
-  Index max_move_steps = 1000;
-  Index chains = 50;  ///< M of waste-free; has to divide samples
+  Index max_move_steps = 1000;  ///< with mixing_correlation
+  Index chains = 50;            ///< M of waste-free; has to divide samples
 
   ScaleRule scale_rule = ScaleRule::fixed;
   double proposal_scale = 0.2;            ///< gamma of Eq. 5, with ScaleRule::fixed

@@ -23,6 +23,14 @@ BoxPrior::BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper)
 
 Population BoxPrior::sample(Index n, const StreamKey& key) const {
   Population points(n, dimension());
+  Eigen::VectorXd first = lower_;
+  Eigen::VectorXd last = upper_;
+  for (Index j = 0; j < dimension(); ++j) {
+    if (std::nextafter(lower_[j], upper_[j]) < upper_[j]) {  // there is something between the bounds
+      first[j] = std::nextafter(lower_[j], upper_[j]);
+      last[j] = std::nextafter(upper_[j], lower_[j]);
+    }
+  }
   for (Index i = 0; i < n; ++i) {
     Words words{};
     for (Index j = 0; j < dimension(); ++j) {
@@ -33,7 +41,7 @@ Population BoxPrior::sample(Index n, const StreamKey& key) const {
                                    .block = static_cast<std::uint32_t>(j / 4)});
       }
       const double value = lower_[j] + (upper_[j] - lower_[j]) * uniform_open(words[word]);
-      points(i, j) = std::min(std::max(value, lower_[j]), upper_[j]);
+      points(i, j) = std::clamp(value, first[j], last[j]);
     }
   }
   return points;

@@ -17,7 +17,7 @@ class BoxPrior {
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// n independent draws, n x dimension.
+  /// n independent draws, n x dimension; none on a bound, unless nothing lies between.
   [[nodiscard]] Population sample(Index n, const StreamKey& key) const;
 
  private:

@@ -79,6 +79,7 @@ class ProposalLanes {
   [[nodiscard]] bool inside(std::size_t lane) const { return inside_[lane] != 0.0; }
   /// Proposed parameter j, a lane a chain.
   [[nodiscard]] const Lanes& parameter(Index j) const { return x_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] const Lanes& independent() const { return independent_; }  ///< 1 for independent proposals
   /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and ratio of proposal densities.
   [[nodiscard]] const Lanes& log_correction() const { return log_correction_; }
 
@@ -95,7 +96,7 @@ class ProposalLanes {
   std::vector<Lanes> x_;       // proposals
   std::vector<Lanes> y_;       // whitened coordinates
   std::vector<Lanes> chosen_;  // 1 for coordinates in S
-  Lanes independent_{};        // 1 for independent proposals
+  Lanes independent_{};
   Lanes walk_scale_{};
   Lanes inside_{};
   Lanes log_correction_{};

@@ -12,9 +12,9 @@ namespace tmcmc {
 /// Descent of the chains of a population.
 struct Genealogy {
   Index chains = 0;  ///< row i of the population belongs to chain i modulo this
-  std::vector<Index>
-      parents;  ///< chain of the population before in which each chain started; none for the prior
-  std::vector<Index> founders;  ///< draw from the prior that each chain descends from
+  /// ancestors[t][c]: chain of the population after stage t from which chain c descends; t = 0 is the prior, where each
+  /// draw is a chain, and the last t the stage before. Empty for the prior itself.
+  std::vector<std::vector<Index>> ancestors;
 };
 
 /// Points with their log-likelihoods.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -42,10 +41,29 @@ Index steps_of(const Options& options, Index evaluations, bool last) {
   return options.move == MoveKind::waste_free ? options.samples / chains - 1 : options.move_steps;
 }
 
+/// The same if they go on until they have mixed; no more than the budget holds.
+Index most_steps_of(const Options& options, Index evaluations, bool last) {
+  const Index steps = steps_of(options, evaluations, last);
+  if (options.mixing_correlation == 0.0 || (last && options.evaluation_budget > 0)) {
+    return steps;
+  }
+  const Index most = std::max(steps, options.max_move_steps);
+  return options.evaluation_budget == 0
+             ? most
+             : std::min(most, (options.evaluation_budget - evaluations) / chains_of(options));
+}
+
 bool fits_budget(const Options& options, const State& state, bool last) {
   const Index steps = steps_of(options, state.evaluations, last);
   return options.evaluation_budget == 0 ||
          (steps >= 1 && steps * chains_of(options) <= options.evaluation_budget - state.evaluations);
+}
+
+/// ScaleRule::acceptance_linked; without a random walk in the stage the scale stays.
+double linked_scale(const MoveCounts& counts, double scale) {
+  return counts.walks > 0 ? 1.0 / 9.0 + 8.0 / 9.0 * static_cast<double>(counts.accepted_walks) /
+                                            static_cast<double>(counts.walks)
+                          : scale;
 }
 
 double initial_scale(const Options& options) {
@@ -125,15 +143,22 @@ StageKernels kernels_of(const Problem& problem, const Options& options, const St
 }
 
 void record_descent(const Options& options, std::span<const Index> ancestors, const State& from, State& to) {
-  const Index chains = from.genealogy.chains;
   to.genealogy.chains = static_cast<Index>(ancestors.size());
-  to.genealogy.parents.clear();
-  to.genealogy.founders.clear();
-  for (std::size_t c = 0; c < ancestors.size() && options.diagnose; ++c) {
-    const Index parent = ancestors[c] % chains;
-    to.genealogy.parents.push_back(parent);
-    to.genealogy.founders.push_back(from.genealogy.founders[static_cast<std::size_t>(parent)]);
+  to.genealogy.ancestors.clear();
+  if (!options.diagnose) {
+    return;
   }
+  std::vector<Index> parents(ancestors.begin(), ancestors.end());
+  for (Index& parent : parents) {
+    parent %= from.genealogy.chains;
+  }
+  for (const auto& of_parents : from.genealogy.ancestors) {
+    auto& of_chains = to.genealogy.ancestors.emplace_back();
+    for (const Index parent : parents) {
+      of_chains.push_back(of_parents[static_cast<std::size_t>(parent)]);
+    }
+  }
+  to.genealogy.ancestors.push_back(std::move(parents));
 }
 
 }  // namespace
@@ -148,10 +173,6 @@ State initial_state(const Problem& problem, const Options& options, const Stream
   problem.log_likelihood(state.points, state.log_likelihood);
   state.evaluations = options.samples;
   state.genealogy.chains = options.samples;
-  if (options.diagnose) {
-    state.genealogy.founders.resize(static_cast<std::size_t>(options.samples));
-    std::iota(state.genealogy.founders.begin(), state.genealogy.founders.end(), Index{0});
-  }
   require_valid(state.points, state.log_likelihood);
   if (count_above(state.log_likelihood, options.infeasible_level) == 0) {
     throw InfeasiblePriorError("none of the " + std::to_string(options.samples) +
@@ -194,10 +215,9 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   record_descent(options, ancestors, from, to);
 
   const bool last = record.beta == 1.0;
-  const bool stop_when_mixed = options.mixing_correlation > 0.0 && !(last && options.evaluation_budget > 0);
   const StageMoves moves =
-      move_population(options, kernels, ancestors, steps_of(options, from.evaluations, last), stop_when_mixed,
-                      to, work.mover, work.moves);
+      move_population(options, kernels, ancestors, steps_of(options, from.evaluations, last),
+                      most_steps_of(options, from.evaluations, last), to, work.mover, work.moves);
   const MoveCounts& counts = moves.counts;
   record.acceptance_rate = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
   record.evaluations = counts.evaluations;
@@ -206,7 +226,7 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   record.proposal_scale =
       options.scale_rule == ScaleRule::fixed ? options.proposal_scale : kernels.kernels.front().scale;
   to.proposal_scale = options.scale_rule == ScaleRule::acceptance_linked
-                          ? 1.0 / 9.0 + 8.0 / 9.0 * record.acceptance_rate
+                          ? linked_scale(counts, kernels.kernels.front().scale)
                           : record.proposal_scale;
   to.beta = record.beta;
   to.stage = record.stage;
@@ -249,7 +269,7 @@ Result run(const Problem& problem, const Options& options, const StreamKey& key,
     }
     result.stages.push_back(advance(problem, options, key, transition, state, next, work));
     if (options.diagnose) {
-      bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood), next.genealogy.parents,
+      bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood), next.genealogy.ancestors.back(),
                  result.stages.back().step);
     }
     std::swap(state, next);

@@ -21,8 +21,8 @@ MoveCounts step_and_adapt(const Options& options, StageKernels& stage, Index ste
                            static_cast<std::uint32_t>(step), walkers.points, walkers.log_likelihood);
     }
   }
-  if (options.scale_rule == ScaleRule::target_acceptance) {
-    const double acceptance = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
+  if (options.scale_rule == ScaleRule::target_acceptance && counts.walks > 0) {
+    const double acceptance = static_cast<double>(counts.accepted_walks) / static_cast<double>(counts.walks);
     for (MetropolisKernel& kernel : stage.kernels) {
       kernel.scale *= portable_math::exp((acceptance - options.target_acceptance) /
                                          std::sqrt(static_cast<double>(step + 1)));
@@ -77,14 +77,14 @@ StageMoves grow_chains(const MetropolisKernel& kernel, std::span<const Index> an
   return result;
 }
 
-StageMoves keep_last_states(const Options& options, StageKernels& kernels, Index steps, bool stop_when_mixed,
+StageMoves keep_last_states(const Options& options, StageKernels& kernels, Index steps, Index most_steps,
                             Walkers& walkers, Mover& mover, Population& starts) {
   StageMoves result;
-  if (stop_when_mixed) {
+  if (most_steps > steps) {
     starts = walkers.points;
   }
   const auto go_on = [&] {
-    return stop_when_mixed && result.steps < options.max_move_steps &&
+    return result.steps < most_steps &&
            largest_correlation(starts, walkers.points) > options.mixing_correlation;
   };
   while (result.steps < steps || go_on()) {
@@ -130,7 +130,7 @@ void Walkers::gather(const Population& from_points, const Eigen::VectorXd& from_
 }
 
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
-                           Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
+                           Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work) {
   switch (options.move) {
     case MoveKind::growing_chains:
@@ -140,7 +140,7 @@ StageMoves move_population(const Options& options, StageKernels& kernels, std::s
     case MoveKind::resample_move:
       break;
   }
-  return keep_last_states(options, kernels, steps, stop_when_mixed, walkers, mover, work.starts);
+  return keep_last_states(options, kernels, steps, most_steps, walkers, mover, work.starts);
 }
 
 double largest_correlation(const Population& a, const Population& b) {

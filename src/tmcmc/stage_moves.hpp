@@ -29,11 +29,11 @@ struct StageMoves {
 /// Moves the starts of a stage.
 /// \param kernels  their scale is adapted (ScaleRule::target_acceptance)
 /// \param steps   Metropolis steps of each chain; not used by growing chains
-/// \param stop_when_mixed  goes on after `steps` as Options::mixing_correlation has it (resample-move)
+/// \param most_steps  if more than `steps`, resample-move goes on after these as Options::mixing_correlation has it
 /// \param walkers in: the starts, of growing chains in ascending order of their `ancestors`; out: the population, of
 ///                waste-free (steps + 1) times as many
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
-                           Index steps, bool stop_when_mixed, Walkers& walkers, Mover& mover,
+                           Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work);
 
 /// Largest absolute correlation, over the parameters, between the rows of two populations; constant parameters are

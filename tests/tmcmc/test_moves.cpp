@@ -7,14 +7,18 @@
 #include <mutex>
 #include <vector>
 
-#include "tmcmc/moves.hpp"
-#include "tmcmc/problems.hpp"
+#include "tmcmc/chains.hpp"
 #include "tmcmc/statistics.hpp"
 
 namespace {
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
+using chains::Chains;
+using chains::column;
+using chains::exponential_cdf;
+using chains::exponential_draw;
+using chains::unit_box;
 using problems::by_rows;
 using statistics::kolmogorov;
 using statistics::kolmogorov_bound;
@@ -32,37 +36,6 @@ using tmcmc::SamplingError;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-BoxPrior unit_box(Index d) {
-  return {Eigen::VectorXd::Zero(d), Eigen::VectorXd::Ones(d)};
-}
-
-std::vector<double> column(const Population& points, Index j) {
-  return {points.col(j).begin(), points.col(j).end()};
-}
-
-/// A population on which steps are made, with all that they need.
-struct Chains {
-  LogLikelihood log_likelihood;
-  BoxPrior prior;
-  MetropolisKernel kernel;
-  Population points;
-  Eigen::VectorXd values{};
-  std::uint64_t seed = 1;
-  int threads = 1;
-  Index batch_rows = 0;
-
-  MoveCounts move(std::uint32_t steps, std::span<const Index> rows = {}, std::uint32_t first_draw = 0) {
-    values.resize(points.rows());
-    log_likelihood(points, values);
-    Mover mover(log_likelihood, prior, {.seed = seed}, threads, batch_rows);
-    MoveCounts counts;
-    for (std::uint32_t k = 0; k < steps; ++k) {
-      counts += mover.step(kernel, rows, first_draw + k, points, values);
-    }
-    return counts;
-  }
-};
-
 MetropolisKernel kernel_of(const Eigen::MatrixXd& factor, double beta = 1.0,
                            Boundary boundary = Boundary::reject) {
   MetropolisKernel kernel;
@@ -75,15 +48,6 @@ MetropolisKernel kernel_of(const Eigen::MatrixXd& factor, double beta = 1.0,
 
 MetropolisKernel kernel_of(double scale, double beta = 1.0, Boundary boundary = Boundary::reject) {
   return kernel_of(Eigen::MatrixXd::Constant(1, 1, scale), beta, boundary);
-}
-
-/// Distribution function of the density proportional to exp(-rate x) on [0, 1].
-double exponential_cdf(double x, double rate) {
-  return std::expm1(-rate * x) / std::expm1(-rate);
-}
-
-double exponential_draw(double u, double rate) {
-  return -std::log1p(u * std::expm1(-rate)) / rate;
 }
 
 /// Integral from 0 to x of Phi((1 - t)/s) - Phi(-t/s): the probability that a Normal proposal from t with

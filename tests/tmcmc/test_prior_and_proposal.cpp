@@ -133,6 +133,9 @@ TEST_CASE("prior draws stay inside a box as narrow as two doubles", "[tmcmc][pri
   const Population points = prior.sample(1000, {});
   CHECK(points.minCoeff() == low);
   CHECK(points.maxCoeff() == high);
+  const double higher = std::nextafter(high, 2.0);
+  const BoxPrior three(Eigen::VectorXd::Constant(1, low), Eigen::VectorXd::Constant(1, higher));
+  CHECK((three.sample(1000, {}).array() == high).all());  // none on a bound, whose logit is infinite
 }
 
 TEST_CASE("a prior without a box is refused, naming the parameter", "[tmcmc][prior]") {

@@ -5,17 +5,24 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
-#include "tmcmc/problems.hpp"
-#include "tmcmc/sampler.hpp"
-#include "tmcmc/statistics.hpp"
+#include "tmcmc/replicates.hpp"
 
 namespace {
 
 using Catch::Matchers::WithinAbs;
+using replicates::check;
+using replicates::check_gamma_normal;
+using replicates::check_normal_margin;
+using replicates::gamma_normal;
+using replicates::good_options;
+using replicates::mean_of;
+using replicates::over_runs;
+using replicates::problem_of;
+using replicates::replicate;
+using replicates::runs;
 using statistics::Estimate;
 using statistics::standard_errors;
 using tmcmc::Boundary;
@@ -27,63 +34,6 @@ using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
-
-constexpr std::uint32_t runs = 40;
-constexpr double bias_constant = 2.0;  // bias of at most this / N posterior standard deviations
-
-template <class Function>
-Problem problem_of(Function function, Eigen::VectorXd lower, Eigen::VectorXd upper) {
-  return {problems::by_rows(function), BoxPrior(std::move(lower), std::move(upper))};
-}
-
-std::vector<Result> replicate(const Problem& problem, const Options& options, std::uint64_t seed,
-                              std::uint32_t count = runs) {
-  std::vector<Result> results;
-  for (std::uint32_t run = 0; run < count; ++run) {
-    results.push_back(tmcmc::run(problem, options, {.seed = seed, .run = run}));
-    REQUIRE(results.back().stop == tmcmc::StopReason::completed);
-  }
-  return results;
-}
-
-Estimate over_runs(const std::vector<Result>& results,
-                   const std::function<double(const Result&)>& statistic) {
-  std::vector<double> values;
-  for (const Result& result : results) {
-    values.push_back(statistic(result));
-  }
-  return statistics::estimate(values);
-}
-
-Estimate mean_of(const std::vector<Result>& results, const std::function<double(double)>& f, Index j) {
-  return over_runs(results, [&](const Result& r) { return r.final.points.col(j).unaryExpr(f).mean(); });
-}
-
-/// \param unit  posterior standard deviation of what is estimated
-void check(const Estimate& e, double truth, double unit, Index samples) {
-  CHECK_THAT(e.mean, WithinAbs(truth, standard_errors * e.standard_error +
-                                          bias_constant * unit / static_cast<double>(samples)));
-  CHECK(e.standard_error < 0.1 * unit);  // else nothing is tested
-}
-
-void check_normal_margin(const std::vector<Result>& results, Index j, double mean, double sd, Index samples) {
-  CAPTURE(j);
-  check(mean_of(
-            results, [](double x) { return x; }, j),
-        mean, sd, samples);
-  check(mean_of(
-            results, [=](double x) { return (x - mean) * (x - mean); }, j),
-        sd * sd, std::sqrt(2.0) * sd * sd, samples);
-}
-
-/// Moves that mix well, so that the errors are those of N samples.
-Options good_options(Index dimension) {
-  Options options;
-  options.samples = 500;
-  options.move_steps = 6;
-  options.proposal_scale = 2.0 / std::sqrt(static_cast<double>(dimension));
-  return options;
-}
 
 }  // namespace
 
@@ -120,17 +70,6 @@ TEST_CASE("a Gaussian likelihood in a wide box: mean, variance and evidence", "[
 }
 
 TEST_CASE("both criteria and both means sample an asymmetric, correlated posterior", "[tmcmc][sampler]") {
-  // x: gamma with shape 3 and rate 2. y given x: Normal about 5 - x with standard deviation 0.6. The likelihood
-  // is x^2 exp(-2 x) exp(-(y - 5 + x)^2 / 0.72), the box [0, 20] x [-20, 10].
-  const Problem problem = problem_of(
-      [](const auto& x) {
-        const double z = (x[1] - 5.0 + x[0]) / 0.6;
-        return 2.0 * std::log(x[0]) - 2.0 * x[0] - 0.5 * z * z;
-      },
-      Eigen::Vector2d(0.0, -20.0), Eigen::Vector2d(20.0, 10.0));
-  const double gamma_sd = std::sqrt(3.0) / 2.0;
-  // Gamma(3) / 2^3 sqrt(2 pi) 0.6 / (20 * 30)
-  const double log_evidence = std::log(0.25 * 2.5066282746310002 * 0.6 / 600.0);
   for (const Criterion& criterion :
        {tmcmc::coefficient_of_variation_rule(), tmcmc::effective_sample_size_rule()}) {
     for (const Centre centre : {Centre::weighted_mean, Centre::plain_mean}) {
@@ -138,29 +77,8 @@ TEST_CASE("both criteria and both means sample an asymmetric, correlated posteri
       Options options = good_options(2);
       options.criterion = criterion;
       options.centre = centre;
-      const auto results = replicate(problem, options, 7);
-      // Central moments of the gamma: 3/4, 3/4.
-      check(mean_of(
-                results, [](double x) { return x; }, 0),
-            1.5, gamma_sd, options.samples);
-      check(mean_of(
-                results, [](double x) { return (x - 1.5) * (x - 1.5); }, 0),
-            0.75, 1.5, options.samples);
-      check(mean_of(
-                results, [](double x) { return std::pow(x - 1.5, 3); }, 0),
-            0.75, 6.0, options.samples);
-      check(mean_of(
-                results, [](double y) { return y; }, 1),
-            3.5, std::sqrt(0.75 + 0.36), options.samples);
-      check(over_runs(results,
-                      [](const Result& r) {
-                        const auto x = r.final.points.col(0).array();
-                        const auto y = r.final.points.col(1).array();
-                        return ((x - 1.5) * (y - 3.5)).mean();
-                      }),
-            -0.75, 1.6, options.samples);
-      check(over_runs(results, [](const Result& r) { return r.final.log_evidence; }), log_evidence, 10.0,
-            options.samples);
+      const auto results = replicate(gamma_normal(), options, 7);
+      check_gamma_normal(results, options.samples);
     }
   }
 }
