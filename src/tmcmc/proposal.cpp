@@ -2,37 +2,65 @@
 
 #include <cmath>
 
+#include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
 
+namespace {
+
+PORTABLE_MATH_MULTIVERSION
+double plain_sum(const double* x, std::size_t n) {
+  return portable_math::sum_of(n, [=](std::size_t i) { return x[i]; });
+}
+
+PORTABLE_MATH_MULTIVERSION
+double weighted_sum(const double* w, const double* x, std::size_t n) {
+  return portable_math::sum_of(n, [=](std::size_t i) { return w[i] * x[i]; });
+}
+
+PORTABLE_MATH_MULTIVERSION
+double weighted_product(const double* w, const double* x, double mean_x, const double* y, double mean_y,
+                        std::size_t n) {
+  return portable_math::sum_of(n, [=](std::size_t i) { return w[i] * ((x[i] - mean_x) * (y[i] - mean_y)); });
+}
+
+}  // namespace
+
 Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weights, double weight_sum,
-                                    double scale, Centre centre) {
-  const auto n = static_cast<std::size_t>(points.rows());
+                                    double scale, Centre centre, int threads) {
+  const Index n = points.rows();
   const Index d = points.cols();
-  Eigen::VectorXd mean(d);
-  for (Index j = 0; j < d; ++j) {
-    const double* x = points.col(j).data();
-    const double* w = weights.data();
-    mean[j] = centre == Centre::weighted_mean
-                  ? portable_math::sum_of(n, [=](std::size_t i) { return w[i] * x[i]; }) / weight_sum
-                  : portable_math::sum_of(n, [=](std::size_t i) { return x[i]; }) / static_cast<double>(n);
-  }
-  Eigen::MatrixXd covariance(d, d);
-  for (Index j = 0; j < d; ++j) {
-    for (Index k = 0; k <= j; ++k) {
-      const double* x = points.col(j).data();
-      const double* y = points.col(k).data();
-      const double* w = weights.data();
-      const double mean_x = mean[j];
-      const double mean_y = mean[k];
-      const double sum =
-          portable_math::sum_of(n, [=](std::size_t i) { return w[i] * ((x[i] - mean_x) * (y[i] - mean_y)); });
-      covariance(j, k) = scale * scale * (sum / weight_sum);
-      covariance(k, j) = covariance(j, k);
+  const double* w = weights.data();
+  const auto add = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
+    return a + b;
+  };
+  const bool weighted = centre == Centre::weighted_mean;
+  const auto sums = [&](Index begin, Index end) {
+    const auto rows = static_cast<std::size_t>(end - begin);
+    Eigen::MatrixXd sum(d, 1);
+    for (Index j = 0; j < d; ++j) {
+      const double* x = points.col(j).data() + begin;
+      sum(j) = weighted ? weighted_sum(w + begin, x, rows) : plain_sum(x, rows);
     }
-  }
-  return covariance;
+    return sum;
+  };
+  const Eigen::VectorXd mean =
+      reduce_blocks(n, threads, sums, add) / (weighted ? weight_sum : static_cast<double>(n));
+  const auto products = [&](Index begin, Index end) {
+    const auto rows = static_cast<std::size_t>(end - begin);
+    Eigen::MatrixXd sum(d, d);
+    for (Index j = 0; j < d; ++j) {
+      for (Index k = 0; k <= j; ++k) {
+        sum(j, k) = weighted_product(w + begin, points.col(j).data() + begin, mean[j],
+                                     points.col(k).data() + begin, mean[k], rows);
+        sum(k, j) = sum(j, k);
+      }
+    }
+    return sum;
+  };
+  return scale * scale * (reduce_blocks(n, threads, products, add) / weight_sum);
 }
 
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {

@@ -1,5 +1,7 @@
 #include "tmcmc/resampling.hpp"
 
+#include "tmcmc/parallel.hpp"
+
 namespace tmcmc {
 
 void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
@@ -9,16 +11,22 @@ void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint
 }
 
 void multinomial_ancestors(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-                           std::span<Index> ancestors, std::vector<double>& partial_sums) {
+                           std::span<Index> ancestors, std::vector<double>& partial_sums, int threads) {
   const std::size_t n = ancestors.size();
   partial_sums.resize(n + 1);
-  double sum = 0.0;
-  for (std::size_t i = 0; i <= n; i += 4) {
-    const Words words = random_words(key, {.purpose = Purpose::resampling, .stage = stage, .row = i / 4});
-    for (std::size_t k = 0; k < 4 && i + k <= n; ++k) {
-      sum -= portable_math::log_positive(uniform_open(words[k]));
-      partial_sums[i + k] = sum;
+  static_assert(reduction_rows % 4 == 0, "a block starts with new words");
+  for_each_block(static_cast<Index>(n + 1), reduction_rows, threads, [&](Index, Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); i += 4) {
+      const Words words = random_words(key, {.purpose = Purpose::resampling, .stage = stage, .row = i / 4});
+      for (std::size_t k = 0; k < 4 && i + k <= n; ++k) {
+        partial_sums[i + k] = -portable_math::log_positive(uniform_open(words[k]));
+      }
     }
+  });
+  double sum = 0.0;
+  for (double& spacing : partial_sums) {
+    sum += spacing;
+    spacing = sum;
   }
   double total = 0.0;
   std::size_t last_positive = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "tmcmc/parallel.hpp"
 #include "tmcmc/resampling.hpp"
 
 namespace tmcmc {
@@ -98,9 +99,13 @@ Workspace::Workspace(const Problem& problem, const Options& options, const Strea
 
 State initial_state(const Problem& problem, const Options& options, const StreamKey& key) {
   State state;
-  state.points = problem.prior.sample(options.samples, key);
+  state.points = problem.prior.sample(options.samples, key, options.threads);
   state.log_likelihood.resize(options.samples);
-  problem.log_likelihood(state.points, state.log_likelihood);
+  for_each_block(options.samples, rows_per_call(options.samples, options.threads, options.batch_rows),
+                 options.threads, [&](Index, Index begin, Index end) {
+                   problem.log_likelihood(state.points.middleRows(begin, end - begin),
+                                          state.log_likelihood.segment(begin, end - begin));
+                 });
   state.evaluations = options.samples;
   require_valid(state.points, state.log_likelihood);
   if (count_above(state.log_likelihood, options.infeasible_level) == 0) {
@@ -126,14 +131,14 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   work.weights.resize(static_cast<std::size_t>(n));
   WeightSums sums{static_cast<double>(n), 0.0};
   if (record.step > 0.0) {
-    sums = relative_weights(as_span(from.log_likelihood), record.step, work.weights);
+    sums = relative_weights(as_span(from.log_likelihood), record.step, work.weights, options.threads);
   } else {
     std::fill(work.weights.begin(), work.weights.end(), 1.0);
   }
   record.log_evidence_increment = sums.log_mean;
   MetropolisKernel kernel;
-  kernel.factor = cholesky_factor(
-      proposal_covariance(from.points, work.weights, sums.sum, options.proposal_scale, options.centre));
+  kernel.factor = cholesky_factor(proposal_covariance(
+      from.points, work.weights, sums.sum, options.proposal_scale, options.centre, options.threads));
   kernel.beta = record.beta;
   kernel.boundary = options.boundary;
   kernel.max_redraws = options.max_redraws;
@@ -141,18 +146,20 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
 
   auto& ancestors = work.ancestors;
   ancestors.resize(static_cast<std::size_t>(n));
-  multinomial_ancestors(work.weights, key, kernel.stage, ancestors, work.partial_sums);
+  multinomial_ancestors(work.weights, key, kernel.stage, ancestors, work.partial_sums, options.threads);
   record.distinct_ancestors = count_distinct(ancestors);
   to.points.resize(n, d);
   to.log_likelihood.resize(n);
-  for (Index j = 0; j < d; ++j) {
-    for (Index i = 0; i < n; ++i) {
-      to.points(i, j) = from.points(ancestors[static_cast<std::size_t>(i)], j);
+  for_each_block(n, reduction_rows, options.threads, [&](Index, Index begin, Index end) {
+    for (Index j = 0; j < d; ++j) {
+      for (Index i = begin; i < end; ++i) {
+        to.points(i, j) = from.points(ancestors[static_cast<std::size_t>(i)], j);
+      }
     }
-  }
-  for (Index i = 0; i < n; ++i) {
-    to.log_likelihood[i] = from.log_likelihood[ancestors[static_cast<std::size_t>(i)]];
-  }
+    for (Index i = begin; i < end; ++i) {
+      to.log_likelihood[i] = from.log_likelihood[ancestors[static_cast<std::size_t>(i)]];
+    }
+  });
 
   MoveCounts counts;
   if (options.move == MoveKind::growing_chains) {
@@ -208,11 +215,11 @@ Result run(const Problem& problem, const Options& options, const StreamKey& key,
 }
 
 Result run(const Problem& problem, const Options& options, const StreamKey& key, const Observer& observer) {
-  std::vector<double> weights;
   return run(
       problem, options, key,
       [&](const State& state) {
-        return choose_step(as_span(state.log_likelihood), 1.0 - state.beta, options.criterion, weights);
+        return choose_step(as_span(state.log_likelihood), 1.0 - state.beta, options.criterion,
+                           options.threads);
       },
       observer);
 }
