@@ -193,7 +193,7 @@ void one_study(benchmark::State& state) {
   for (auto _ : state) {
     for (std::uint32_t arm = 0; arm < s.arms.size(); ++arm) {
       const auto runs = study::run_arm(s.problem, s.arms[arm], arm, options);
-      benchmark::DoNotOptimize(study::pbox_areas(runs));
+      benchmark::DoNotOptimize(study::pbox_areas(runs, options.threads));
     }
     ++options.seed;
   }
