@@ -8,6 +8,7 @@ namespace study {
 
 Reading reading(ReadingName name) {
   Reading r;
+  r.sampler.batch_rows = 2048;  // what a call of the likelihood touches stays in the cache
   switch (name) {
     case ReadingName::as_published:
       r.sampler.criterion.deviation = tmcmc::Deviation::sample;

@@ -16,11 +16,16 @@ printf 'friction_force_n,frequency_ratio\n0.5,0.8\n' >points.csv
 
 "$bin/replicated_study" $small --studies 4 --quiet --output data/generated/replicated_study.csv
 
+same() {  # NAME FILE FILE: of measurements only the columns before the times repeat
+  case $1 in scaling) cmp -s <(cut -d, -f1-7 "$2") <(cut -d, -f1-7 "$3") ;; *) cmp -s "$2" "$3" ;; esac
+}
+
 for e in $experiments; do
   check "$e --help" test "$("$bin/$e" --help | grep -c -e --output -e --quiet -e --version)" -ge 3
   check "$e --version" grep -qE '^[a-z0-9_]+ [0-9]+\.[0-9]+\.[0-9]+$' <("$bin/$e" --version)
   options=""
   [ "$e" = evaluate_model ] && options="--points points.csv"
+  [ "$e" = scaling ] && options="--most-samples 1000 --repetitions 1"
   case $("$bin/$e" --help) in *"--runs "*) options="$options $small" ;; esac
   "$bin/$e" $options --output "$e.csv" >"$e.report" 2>"$e.err"
   check "$e ends with 0: $(cat "$e.err")" test $? = 0
@@ -29,8 +34,8 @@ for e in $experiments; do
   check "$e is silent on stderr" test ! -s "$e.err"
   quiet_output=$("$bin/$e" $options --quiet --output "$e.again.csv" 2>&1)
   check "$e --quiet is silent" test -z "$quiet_output"
-  check "$e gives the same bytes again" cmp -s "$e.csv" "$e.again.csv"
-  check "$e --output -" cmp -s "$e.csv" <("$bin/$e" $options --quiet --output -)
+  check "$e gives the same bytes again" same "$e" "$e.csv" "$e.again.csv"
+  check "$e --output -" same "$e" "$e.csv" <("$bin/$e" $options --quiet --output -)
   case $("$bin/$e" --help) in *--threads*)
     for threads in 1 2 3; do
       "$bin/$e" $options --quiet --threads $threads --output "$e.$threads.csv"
