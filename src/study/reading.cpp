@@ -56,7 +56,6 @@ ReadingName parse_reading(const std::string& name) {
 std::vector<Arm> paper_arms(const Reading& reading, double cov_target, double ess_fraction) {
   Arm tmcmc{"TMCMC", reading.sampler};
   tmcmc.options.infeasible_level = reading.infeasible_log_likelihood;
-  tmcmc.options.batch_rows = 2048;  // what a call of the likelihood touches stays in the cache
   tmcmc.options.criterion.kind = tmcmc::CriterionKind::coefficient_of_variation;
   tmcmc.options.criterion.target = cov_target;
   Arm tmcmc_ii{"TMCMC-II", tmcmc.options};
