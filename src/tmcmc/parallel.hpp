@@ -60,9 +60,10 @@ auto reduce_blocks(Index n, int threads, Body body, Combine combine) {
   return partial.front();
 }
 
-/// Rows that one call of a log-likelihood gets: batch_rows, or an equal share for each thread if that is 0.
+/// Rows that one call of a log-likelihood gets: an equal share for each thread, at most batch_rows unless that is 0.
 [[nodiscard]] inline Index rows_per_call(Index n, int threads, Index batch_rows) {
-  return batch_rows > 0 ? std::min(batch_rows, n) : (n + threads - 1) / threads;
+  const Index share = (n + threads - 1) / threads;
+  return batch_rows > 0 ? std::min(batch_rows, share) : share;
 }
 
 }  // namespace tmcmc

@@ -105,6 +105,9 @@ TEST_CASE("no call of the log-likelihood gets more than batch_rows rows", "[tmcm
       exact.prior};
   check_same_bits(tmcmc::run(watched, options, {.seed = 5}), run_ridge(options));
   CHECK(most == 50);
+  CHECK(tmcmc::rows_per_call(1000, 3, 2048) == 334);  // a small population too is shared among the threads
+  CHECK(tmcmc::rows_per_call(1000, 3, 0) == 334);
+  CHECK(tmcmc::rows_per_call(10000, 3, 2048) == 2048);
 }
 
 TEST_CASE("runs that differ in any field of their key differ", "[tmcmc][sampler]") {
