@@ -38,8 +38,7 @@ struct Options {
   Index max_stages = 1000;
   double minimum_step = 1e-15;  ///< a smaller step of beta that does not reach 1 ends the run
   int threads = 1;              ///< over the rows of one population
-  Index batch_rows = 2048;      ///< most rows a call of the log-likelihood gets, so that what it touches stays in
-                                ///< the cache; 0: no limit but the threads
+  Index batch_rows = 2048;  ///< most rows a call of the log-likelihood gets; 0: as many as are a thread's share
 
   /// \throws std::invalid_argument naming field, value and constraint.
   void validate() const;
