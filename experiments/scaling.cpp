@@ -167,7 +167,8 @@ int main(int argc, char** argv) {
                    "threads", "observations", "seconds", "us per sample", "ns per evaluation", "MB",
                    "speed-up");
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto& [s, m] = std::tie(all[i], best[i]);
+      const Setting& s = all[i];
+      const Measurement& m = best[i];
       const double per_sample = 1e6 * m.seconds / static_cast<double>(s.runs * s.samples);
       const double per_evaluation = 1e9 * m.seconds / static_cast<double>(m.evaluations);
       const double memory = std::max(0.0, m.peak_bytes - base);
