@@ -11,7 +11,7 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures paper compare test verify identical bench clean
+.PHONY: help deps build all results figures paper compare test verify identical bench scaling clean
 .SECONDARY:
 
 help:
@@ -26,6 +26,7 @@ help:
 	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
+	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
 	@echo 'make clean     remove build/ and what is not committed'
 	@echo 'One file, e.g.: make figures/fig3_pboxes.pdf'
 
@@ -271,6 +272,14 @@ bench: $(BUILD)/.built
 	@mkdir -p build/bench
 	$(BIN)/benchmarks --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
 	  --benchmark_out=build/bench/benchmarks.json --benchmark_out_format=json
+
+# Times differ from machine to machine: no part of `make all`.
+SCALING ?= build/scaling
+
+scaling: $(BIN)/scaling
+	@mkdir -p $(SCALING)
+	$< --output $(SCALING)/scaling.csv
+	figures/draw scaling $(SCALING) $(SCALING)
 
 identical: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	tools/identical_bytes

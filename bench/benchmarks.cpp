@@ -3,8 +3,8 @@
 // build/bench/benchmarks.json.
 
 #include <benchmark/benchmark.h>
-#include <omp.h>
 
+#include "portable_math/multiversion.hpp"
 #include "reference_sampler.hpp"
 #include "study/study.hpp"
 #include "study/synthetic.hpp"
@@ -46,6 +46,33 @@ void per_item(benchmark::State& state, double items) {
   state.counters["time_per_item"] =
       benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
+
+/// The roof: multiplications and additions alone, in registers, as many independent ones as hide their latency.
+PORTABLE_MATH_MULTIVERSION
+void multiply_and_add(double* x, int steps) {
+  constexpr int lanes = 48;
+  double a[lanes];
+  std::copy_n(x, lanes, a);
+  for (int step = 0; step < steps; ++step) {
+#pragma GCC unroll 48
+    for (double& value : a) {
+      value = value * 0.999 + 0.001;
+    }
+  }
+  std::copy_n(a, lanes, x);
+}
+
+void arithmetic_peak(benchmark::State& state) {
+  constexpr int steps = 1000;
+  std::vector<double> x(48, 0.5);
+  for (auto _ : state) {
+    multiply_and_add(x.data(), steps);
+    benchmark::DoNotOptimize(x.data());
+  }
+  state.counters["flops"] =
+      benchmark::Counter(2.0 * 48.0 * steps, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(arithmetic_peak);
 
 void phase_reference(benchmark::State& state) {
   const Setting s;
@@ -178,7 +205,6 @@ void one_large_run(benchmark::State& state) {
   auto options = s.arms[0].options;
   options.samples = state.range(0);
   options.threads = static_cast<int>(state.range(1));
-  options.batch_rows = 2048;
   for (auto _ : state) {
     benchmark::DoNotOptimize(tmcmc::run(s.problem, options, {.seed = 1}));
   }
@@ -193,7 +219,7 @@ void one_study(benchmark::State& state) {
   for (auto _ : state) {
     for (std::uint32_t arm = 0; arm < s.arms.size(); ++arm) {
       const auto runs = study::run_arm(s.problem, s.arms[arm], arm, options);
-      benchmark::DoNotOptimize(study::pbox_areas(runs));
+      benchmark::DoNotOptimize(study::pbox_areas(runs, options.threads));
     }
     ++options.seed;
   }

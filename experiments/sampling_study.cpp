@@ -10,8 +10,9 @@ using namespace experiments;
 
 namespace {
 
-void report_arm(const Program& program, const study::Arm& arm, const std::vector<study::Run>& runs) {
-  const Eigen::VectorXd areas = study::pbox_areas(runs);
+void report_arm(const Program& program, const study::Arm& arm, const std::vector<study::Run>& runs,
+                int threads) {
+  const Eigen::VectorXd areas = study::pbox_areas(runs, threads);
   std::vector<double> evidence;
   tmcmc::Index evaluations = 0;
   for (const auto& run : runs) {
@@ -123,7 +124,7 @@ int main(int argc, char** argv) {
           }
         }
       }
-      report_arm(program, arms[a], results[a]);
+      report_arm(program, arms[a], results[a], options.threads);
     }
     for (auto* csv : {&samples_csv, &runs_csv, &stages_csv}) {
       if (*csv) {

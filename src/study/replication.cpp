@@ -7,11 +7,12 @@
 
 namespace study {
 
-StudySummary summarise(std::uint32_t study, const std::string& sampler, const std::vector<Run>& runs) {
+StudySummary summarise(std::uint32_t study, const std::string& sampler, const std::vector<Run>& runs,
+                       int threads) {
   StudySummary summary;
   summary.study = study;
   summary.sampler = sampler;
-  const Eigen::VectorXd areas = pbox_areas(runs);
+  const Eigen::VectorXd areas = pbox_areas(runs, threads);
   summary.areas.assign(areas.begin(), areas.end());
   for (tmcmc::Index j = 0; j < areas.size(); ++j) {
     std::vector<double> values;
@@ -47,7 +48,8 @@ std::vector<StudySummary> run_study(const tmcmc::Problem& problem, const std::ve
                                     const StudyOptions& options) {
   std::vector<StudySummary> summaries;
   for (std::uint32_t a = 0; a < arms.size(); ++a) {
-    summaries.push_back(summarise(options.study, arms[a].name, run_arm(problem, arms[a], a, options)));
+    summaries.push_back(
+        summarise(options.study, arms[a].name, run_arm(problem, arms[a], a, options), options.threads));
   }
   return summaries;
 }

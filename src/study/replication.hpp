@@ -24,8 +24,9 @@ struct StudySummary {
   friend bool operator==(const StudySummary&, const StudySummary&) = default;
 };
 
+/// \param threads  the summary does not depend on it
 [[nodiscard]] StudySummary summarise(std::uint32_t study, const std::string& sampler,
-                                     const std::vector<Run>& runs);
+                                     const std::vector<Run>& runs, int threads = 1);
 
 /// One study of all arms.
 /// \throws as run_arm.

@@ -91,13 +91,13 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
   return runs;
 }
 
-Eigen::VectorXd pbox_areas(const std::vector<Run>& runs) {
+Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads) {
   if (runs.empty()) {
     throw std::invalid_argument("pbox_areas: expected at least one run");
   }
   const tmcmc::Index d = runs.front().result.final.points.cols();
   Eigen::VectorXd areas(d);
-  for (tmcmc::Index j = 0; j < d; ++j) {
+  tmcmc::for_each_block(d, 1, threads, [&](tmcmc::Index j, tmcmc::Index, tmcmc::Index) {
     std::vector<pbox::Ecdf> ecdfs;
     ecdfs.reserve(runs.size());
     for (const Run& run : runs) {
@@ -105,7 +105,7 @@ Eigen::VectorXd pbox_areas(const std::vector<Run>& runs) {
       ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()));
     }
     areas[j] = pbox::area_metric(ecdfs);
-  }
+  });
   return areas;
 }
 

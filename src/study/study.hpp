@@ -37,8 +37,9 @@ using RunObserver = std::function<void()>;
                                        const StudyOptions& options, const RunObserver& observer = {});
 
 /// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry a parameter.
+/// \param threads  over the parameters; the areas do not depend on it
 /// \throws std::invalid_argument if there is no run.
-[[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs);
+[[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads = 1);
 
 /// Number of runs that took each number of iterations (Table 4).
 [[nodiscard]] std::map<tmcmc::Index, tmcmc::Index> iteration_counts(const std::vector<Run>& runs);

@@ -1,11 +1,15 @@
 #include "tmcmc/log_weights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
 
@@ -13,12 +17,28 @@ namespace {
 
 constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
-double largest(ConstDoubles x) {
-  double result = minus_infinity;
-  for (const double value : x) {
-    result = value > result ? value : result;
-  }
-  return result;
+/// Weights of one block, which never leave the cache.
+using BlockWeights = std::array<double, reduction_rows>;
+
+double larger(double a, double b) {
+  return b > a ? b : a;
+}
+
+ConstDoubles part(ConstDoubles x, Index begin, Index end) {
+  return x.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+}
+
+double largest(ConstDoubles x, int threads) {
+  return reduce_blocks(
+      static_cast<Index>(x.size()), threads,
+      [x](Index begin, Index end) {
+        double result = minus_infinity;
+        for (const double value : part(x, begin, end)) {
+          result = larger(result, value);
+        }
+        return result;
+      },
+      larger);
 }
 
 /// Fills the weights and returns their sum.
@@ -49,6 +69,32 @@ double feasible_squared_deviations(const double* weights, const double* log_like
   });
 }
 
+struct PowerSums {
+  double first;
+  double second;
+};
+
+PowerSums add(const PowerSums& a, const PowerSums& b) {
+  return {a.first + b.first, a.second + b.second};
+}
+
+struct Spread {
+  double count;
+  double sum;
+  double squared_deviations;  // from the mean of these
+};
+
+/// Chan, Golub and LeVeque 1983: no cancellation, however small the spread.
+Spread merge(const Spread& a, const Spread& b) {
+  if (a.count == 0.0 || b.count == 0.0) {
+    return a.count == 0.0 ? b : a;
+  }
+  const double count = a.count + b.count;
+  const double distance = b.sum / b.count - a.sum / a.count;
+  return {count, a.sum + b.sum,
+          a.squared_deviations + b.squared_deviations + distance * distance * (a.count * b.count / count)};
+}
+
 }  // namespace
 
 Index count_feasible(ConstDoubles log_likelihood) {
@@ -56,49 +102,90 @@ Index count_feasible(ConstDoubles log_likelihood) {
          static_cast<Index>(std::count(log_likelihood.begin(), log_likelihood.end(), minus_infinity));
 }
 
-WeightStatistics::WeightStatistics(ConstDoubles log_likelihood, std::vector<double>& weights)
+template <class Body, class Combine>
+auto WeightStatistics::reduce(Body body, Combine combine) const {
+  return reduce_blocks(
+      static_cast<Index>(log_likelihood_.size()), threads_,
+      [&](Index begin, Index end) { return body(part(log_likelihood_, begin, end)); }, combine);
+}
+
+WeightStatistics::WeightStatistics(ConstDoubles log_likelihood, int threads)
     : log_likelihood_(log_likelihood),
-      feasible_(count_feasible(log_likelihood)),
-      largest_(largest(log_likelihood)),
-      weights_(weights) {
-  weights_.resize(log_likelihood.size());
-}
+      threads_(threads),
+      feasible_(reduce(count_feasible, std::plus<>())),
+      largest_(largest(log_likelihood, threads)) {}
 
-double WeightStatistics::evaluate(double step) {
-  return weigh(log_likelihood_.data(), weights_.size(), largest_, step, weights_.data());
-}
-
-double WeightStatistics::effective_sample_size(double step) {
+double WeightStatistics::effective_sample_size(double step) const {
   if (feasible_ == 0) {
     return 0.0;
   }
-  const double sum = evaluate(step);
-  return sum * sum / sum_of_squares(weights_.data(), weights_.size());
+  const PowerSums sums = reduce(
+      [&](ConstDoubles block) -> PowerSums {
+        BlockWeights weights;
+        const double sum = weigh(block.data(), block.size(), largest_, step, weights.data());
+        return {sum, sum_of_squares(weights.data(), block.size())};
+      },
+      add);
+  return sums.first * sums.first / sums.second;
 }
 
-double WeightStatistics::coefficient_of_variation(double step, Deviation deviation, Counted counted) {
+double WeightStatistics::coefficient_of_variation(double step, Deviation deviation, Counted counted) const {
   if (feasible_ == 0) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  const double n =
-      static_cast<double>(counted == Counted::feasible ? feasible_ : static_cast<Index>(weights_.size()));
-  const double mean = evaluate(step) / n;
-  const double squares =
-      counted == Counted::feasible && feasible_ < static_cast<Index>(weights_.size())
-          ? feasible_squared_deviations(weights_.data(), log_likelihood_.data(), weights_.size(), mean)
-          : squared_deviations(weights_.data(), weights_.size(), mean);
-  return std::sqrt(squares / (deviation == Deviation::sample ? n - 1.0 : n)) / mean;
+  const bool exclude = counted == Counted::feasible && feasible_ < static_cast<Index>(log_likelihood_.size());
+  const Spread total = reduce(
+      [&](ConstDoubles block) -> Spread {
+        BlockWeights weights;
+        const double* w = weights.data();
+        const double count =
+            static_cast<double>(exclude ? count_feasible(block) : static_cast<Index>(block.size()));
+        const double sum = weigh(block.data(), block.size(), largest_, step, weights.data());
+        return {count, sum,
+                exclude ? feasible_squared_deviations(w, block.data(), block.size(), sum / count)
+                        : squared_deviations(w, block.size(), sum / count)};
+      },
+      merge);
+  const double n = total.count;
+  return std::sqrt(total.squared_deviations / (deviation == Deviation::sample ? n - 1.0 : n)) /
+         (total.sum / n);
+}
+
+double WeightStatistics::log_likelihood_spread() const {
+  const double n = static_cast<double>(feasible_);
+  const auto feasible_mean = [&](auto term) {
+    return reduce(
+        [&](ConstDoubles block) {
+          return portable_math::sum_of(block.size(), [&](std::size_t i) {
+            return block[i] == minus_infinity ? 0.0 : term(block[i] - largest_) / n;
+          });
+        },
+        std::plus<>());
+  };
+  const double mean = feasible_mean([](double value) { return value; });
+  const double scale = reduce(
+      [&](ConstDoubles block) {
+        double result = 0.0;
+        for (const double value : block) {
+          result = value == minus_infinity ? result : larger(result, std::fabs(value - largest_ - mean));
+        }
+        return result;
+      },
+      larger);
+  if (!(scale > 0.0) || !std::isfinite(scale)) {
+    return 0.0;
+  }
+  return scale * std::sqrt(feasible_mean(
+                     [&](double value) { return (value - mean) / scale * ((value - mean) / scale); }));
 }
 
 double effective_sample_size(ConstDoubles log_likelihood, double step) {
-  std::vector<double> weights;
-  return WeightStatistics(log_likelihood, weights).effective_sample_size(step);
+  return WeightStatistics(log_likelihood).effective_sample_size(step);
 }
 
 double coefficient_of_variation(ConstDoubles log_likelihood, double step, Deviation deviation,
                                 Counted counted) {
-  std::vector<double> weights;
-  return WeightStatistics(log_likelihood, weights).coefficient_of_variation(step, deviation, counted);
+  return WeightStatistics(log_likelihood).coefficient_of_variation(step, deviation, counted);
 }
 
 double log_mean_weight(ConstDoubles log_likelihood, double step) {
@@ -106,13 +193,20 @@ double log_mean_weight(ConstDoubles log_likelihood, double step) {
   return relative_weights(log_likelihood, step, weights).log_mean;
 }
 
-WeightSums relative_weights(ConstDoubles log_likelihood, double step, std::span<double> weights) {
-  const double shift = largest(log_likelihood);
+WeightSums relative_weights(ConstDoubles log_likelihood, double step, std::span<double> weights,
+                            int threads) {
+  const double shift = largest(log_likelihood, threads);
   if (shift == minus_infinity) {
     std::fill(weights.begin(), weights.end(), 0.0);
     return {0.0, minus_infinity};
   }
-  const double sum = weigh(log_likelihood.data(), weights.size(), shift, step, weights.data());
+  const double sum = reduce_blocks(
+      static_cast<Index>(weights.size()), threads,
+      [&](Index begin, Index end) {
+        const ConstDoubles block = part(log_likelihood, begin, end);
+        return weigh(block.data(), block.size(), shift, step, weights.data() + begin);
+      },
+      std::plus<>());
   return {sum, step * shift + portable_math::log(sum / static_cast<double>(weights.size()))};
 }
 

@@ -1,9 +1,8 @@
 /// \file
 /// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), from log-likelihoods; always shifted by
 /// the largest, so that a constant added to the log-likelihood changes nothing but the log-mean.
+/// Sums run over blocks of a fixed size; `threads` changes no result.
 #pragma once
-
-#include <vector>
 
 #include "tmcmc/types.hpp"
 
@@ -35,24 +34,26 @@ enum class Counted {
                                               Deviation deviation = Deviation::population,
                                               Counted counted = Counted::all);
 
-/// Both of the above from one evaluation of the weights, for a search over many steps.
+/// Both of the above for a search over many steps; each call evaluates the weights once and stores none.
 class WeightStatistics {
  public:
-  /// \param log_likelihood  stays referred to, as does
-  /// \param weights  work space, resized to the same length
-  WeightStatistics(ConstDoubles log_likelihood, std::vector<double>& weights);
+  /// \param log_likelihood  stays referred to
+  explicit WeightStatistics(ConstDoubles log_likelihood, int threads = 1);
 
   [[nodiscard]] Index feasible() const { return feasible_; }
-  [[nodiscard]] double effective_sample_size(double step);
-  [[nodiscard]] double coefficient_of_variation(double step, Deviation deviation, Counted counted);
+  [[nodiscard]] double effective_sample_size(double step) const;
+  [[nodiscard]] double coefficient_of_variation(double step, Deviation deviation, Counted counted) const;
+  /// Standard deviation of the feasible log-likelihoods; 0 if it is not a positive number.
+  [[nodiscard]] double log_likelihood_spread() const;
 
  private:
-  double evaluate(double step);
+  template <class Body, class Combine>
+  auto reduce(Body body, Combine combine) const;
 
   ConstDoubles log_likelihood_;
+  int threads_;
   Index feasible_;
   double largest_;
-  std::vector<double>& weights_;
 };
 
 /// log( (1/N) sum w ) over all samples: the increment of the log-evidence (Ching and Chen 2007); minus
@@ -66,6 +67,7 @@ struct WeightSums {
 
 /// Fills the weights relative to the largest.
 /// \param weights  as long as log_likelihood
-WeightSums relative_weights(ConstDoubles log_likelihood, double step, std::span<double> weights);
+WeightSums relative_weights(ConstDoubles log_likelihood, double step, std::span<double> weights,
+                            int threads = 1);
 
 }  // namespace tmcmc

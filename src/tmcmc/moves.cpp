@@ -52,8 +52,7 @@ Mover::~Mover() = default;
 MoveCounts Mover::step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,
                        Population& points, Eigen::VectorXd& log_likelihood) {
   const Index n = rows.empty() ? points.rows() : static_cast<Index>(rows.size());
-  const Index per_thread = (n + threads_ - 1) / threads_;
-  const Index block_size = batch_rows_ > 0 ? std::min(batch_rows_, n) : per_thread;
+  const Index block_size = rows_per_call(n, threads_, batch_rows_);
   const Index block_count = (n + block_size - 1) / block_size;
   while (static_cast<Index>(blocks_.size()) < block_count ||
          blocks_.front()->candidates.rows() < block_size) {

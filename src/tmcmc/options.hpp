@@ -76,8 +76,9 @@ struct Options {
   /// Bridge estimate of the log-evidence with its error, effective sample sizes and warnings (Result::evidence and
   /// Result::diagnostics).
   bool diagnose = true;
-  int threads = 1;       ///< over the rows of one population
-  Index batch_rows = 0;  ///< most rows a call of the log-likelihood gets; 0: no limit but the threads
+  int threads = 1;  ///< over the rows of one population
+  Index batch_rows =
+      2048;  ///< most rows a call of the log-likelihood gets; 0: as many as are a thread's share
 
   /// \throws std::invalid_argument naming field, value and constraint.
   void validate() const;

@@ -1,5 +1,5 @@
 /// \file
-/// Loop over blocks of an index range on several threads.
+/// Loops and sums over blocks of an index range on several threads.
 #pragma once
 
 #include <omp.h>
@@ -37,6 +37,33 @@ void for_each_block(Index n, Index block_size, int threads, Body body) {
       std::rethrow_exception(failure);
     }
   }
+}
+
+/// Rows of one partial sum: few enough for the cache, and more than the runs of the paper have.
+constexpr Index reduction_rows = 4096;
+
+/// Combines body(begin, end) of each block of reduction_rows indices, in the order of the blocks: the result depends on
+/// n alone, not on the threads.
+template <class Body, class Combine>
+auto reduce_blocks(Index n, int threads, Body body, Combine combine) {
+  if (n <= reduction_rows) {
+    return body(Index{0}, n);
+  }
+  using Partial = decltype(body(Index{0}, n));
+  std::vector<Partial> partial(static_cast<std::size_t>((n + reduction_rows - 1) / reduction_rows));
+  for_each_block(n, reduction_rows, threads, [&](Index block, Index begin, Index end) {
+    partial[static_cast<std::size_t>(block)] = body(begin, end);
+  });
+  for (std::size_t block = 1; block < partial.size(); ++block) {
+    partial.front() = combine(partial.front(), partial[block]);
+  }
+  return partial.front();
+}
+
+/// Rows that one call of a log-likelihood gets: an equal share for each thread, at most batch_rows unless that is 0.
+[[nodiscard]] inline Index rows_per_call(Index n, int threads, Index batch_rows) {
+  const Index share = (n + threads - 1) / threads;
+  return batch_rows > 0 ? std::min(batch_rows, share) : share;
 }
 
 }  // namespace tmcmc

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "tmcmc/parallel.hpp"
+
 namespace tmcmc {
 
 BoxPrior::BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper)
@@ -21,7 +23,7 @@ BoxPrior::BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper)
   }
 }
 
-Population BoxPrior::sample(Index n, const StreamKey& key) const {
+Population BoxPrior::sample(Index n, const StreamKey& key, int threads) const {
   Population points(n, dimension());
   Eigen::VectorXd first = lower_;
   Eigen::VectorXd last = upper_;
@@ -31,19 +33,21 @@ Population BoxPrior::sample(Index n, const StreamKey& key) const {
       last[j] = std::nextafter(upper_[j], lower_[j]);
     }
   }
-  for (Index i = 0; i < n; ++i) {
-    Words words{};
-    for (Index j = 0; j < dimension(); ++j) {
-      const auto word = static_cast<std::size_t>(j % 4);
-      if (word == 0) {
-        words = random_words(key, {.purpose = Purpose::prior,
-                                   .row = static_cast<std::uint64_t>(i),
-                                   .block = static_cast<std::uint32_t>(j / 4)});
+  for_each_block(n, reduction_rows, threads, [&](Index, Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      Words words{};
+      for (Index j = 0; j < dimension(); ++j) {
+        const auto word = static_cast<std::size_t>(j % 4);
+        if (word == 0) {
+          words = random_words(key, {.purpose = Purpose::prior,
+                                     .row = static_cast<std::uint64_t>(i),
+                                     .block = static_cast<std::uint32_t>(j / 4)});
+        }
+        const double value = lower_[j] + (upper_[j] - lower_[j]) * uniform_open(words[word]);
+        points(i, j) = std::clamp(value, first[j], last[j]);
       }
-      const double value = lower_[j] + (upper_[j] - lower_[j]) * uniform_open(words[word]);
-      points(i, j) = std::clamp(value, first[j], last[j]);
     }
-  }
+  });
   return points;
 }
 

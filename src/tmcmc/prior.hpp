@@ -17,8 +17,8 @@ class BoxPrior {
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// n independent draws, n x dimension; none on a bound, unless nothing lies between.
-  [[nodiscard]] Population sample(Index n, const StreamKey& key) const;
+  /// n independent draws, n x dimension; none on a bound, unless nothing lies between. They do not depend on the threads.
+  [[nodiscard]] Population sample(Index n, const StreamKey& key, int threads = 1) const;
 
  private:
   Eigen::VectorXd lower_;

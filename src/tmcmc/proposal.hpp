@@ -15,12 +15,14 @@ enum class Centre {
 /// Sigma = scale^2 sum_i w_i (theta_i - m)(theta_i - m)^T / sum_i w_i, d x d.
 /// \param points   n x d
 /// \param weights  n, non-negative, with the sum weight_sum > 0
+/// \param threads  the result does not depend on it
 [[nodiscard]] Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weights,
-                                                  double weight_sum, double scale, Centre centre);
+                                                  double weight_sum, double scale, Centre centre,
+                                                  int threads = 1);
 
 /// sum_i w_i theta_i / sum_i w_i, d.
 [[nodiscard]] Eigen::VectorXd weighted_mean(const Population& points, ConstDoubles weights,
-                                            double weight_sum);
+                                            double weight_sum, int threads = 1);
 
 /// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a zero
 /// column. Plain loops, since the order of Eigen's sums depends on the instruction set.

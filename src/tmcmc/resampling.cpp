@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tmcmc/parallel.hpp"
+
 namespace tmcmc {
 
 namespace {
@@ -38,16 +40,22 @@ void invert(ConstDoubles weights, std::size_t last_positive, std::span<Index> an
 
 /// Sorted uniforms are partial sums of exponential spacings.
 void multinomial(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
-                 std::vector<double>& partial_sums) {
+                 std::vector<double>& partial_sums, int threads) {
   const std::size_t n = ancestors.size();
   partial_sums.resize(n + 1);
-  double sum = 0.0;
-  for (std::size_t i = 0; i <= n; i += 4) {
-    const Words words = random_words(key, {.purpose = Purpose::resampling, .stage = stage, .row = i / 4});
-    for (std::size_t k = 0; k < 4 && i + k <= n; ++k) {
-      sum -= portable_math::log_positive(uniform_open(words[k]));
-      partial_sums[i + k] = sum;
+  static_assert(reduction_rows % 4 == 0, "a block starts with new words");
+  for_each_block(static_cast<Index>(n + 1), reduction_rows, threads, [&](Index, Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); i += 4) {
+      const Words words = random_words(key, {.purpose = Purpose::resampling, .stage = stage, .row = i / 4});
+      for (std::size_t k = 0; k < 4 && i + k <= n; ++k) {
+        partial_sums[i + k] = -portable_math::log_positive(uniform_open(words[k]));
+      }
     }
+  });
+  double sum = 0.0;
+  for (double& spacing : partial_sums) {
+    sum += spacing;
+    spacing = sum;
   }
   const Total total = total_of(weights);
   const double scale = total.weight / sum;
@@ -66,7 +74,7 @@ void stratified(ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
 }
 
 void residual(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
-              ResamplingWorkspace& work) {
+              ResamplingWorkspace& work, int threads) {
   const double scale = static_cast<double>(ancestors.size()) / total_of(weights).weight;
   work.residuals.resize(weights.size());
   std::size_t whole = 0;
@@ -80,7 +88,8 @@ void residual(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, s
   work.drawn.resize(rest);
   if (rest > 0) {
     const bool any = total_of(work.residuals).weight > 0.0;
-    multinomial(any ? ConstDoubles(work.residuals) : weights, key, stage, work.drawn, work.partial_sums);
+    multinomial(any ? ConstDoubles(work.residuals) : weights, key, stage, work.drawn, work.partial_sums,
+                threads);
   }
   std::size_t k = 0;
   std::size_t next = 0;
@@ -104,13 +113,13 @@ void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std
 }
 
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-              std::span<Index> ancestors, ResamplingWorkspace& work) {
+              std::span<Index> ancestors, ResamplingWorkspace& work, int threads) {
   switch (scheme) {
     case Resampling::multinomial:
-      multinomial(weights, key, stage, ancestors, work.partial_sums);
+      multinomial(weights, key, stage, ancestors, work.partial_sums, threads);
       break;
     case Resampling::residual:
-      residual(weights, key, stage, ancestors, work);
+      residual(weights, key, stage, ancestors, work, threads);
       break;
     case Resampling::stratified:
       stratified(weights, key, stage, ancestors, false);

@@ -27,8 +27,9 @@ struct ResamplingWorkspace {
 
 /// Ancestors of `ancestors.size()` draws, in ascending order; their number need not be that of the weights. Linear time.
 /// \param weights  non-negative, with a positive sum
+/// \param threads  the result does not depend on it
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-              std::span<Index> ancestors, ResamplingWorkspace& work);
+              std::span<Index> ancestors, ResamplingWorkspace& work, int threads = 1);
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
               std::span<Index> ancestors);
 

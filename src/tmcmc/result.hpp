@@ -24,7 +24,7 @@ struct Walkers {
 
   /// Takes the given rows of a population.
   void gather(const Population& from_points, const Eigen::VectorXd& from_log_likelihood,
-              std::span<const Index> rows);
+              std::span<const Index> rows, int threads = 1);
 };
 
 /// A population at one temperature.

@@ -7,6 +7,7 @@
 
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/evidence.hpp"
+#include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
 
@@ -89,11 +90,11 @@ MetropolisKernel kernel_of(const Problem& problem, const Options& options, const
     unbounded = to_unbounded(from.points, problem.prior);
   }
   const Population& points = natural ? from.points : unbounded;
-  kernel.factor =
-      cholesky_factor(proposal_covariance(points, weights, weight_sum, in_factor, options.centre));
+  kernel.factor = cholesky_factor(
+      proposal_covariance(points, weights, weight_sum, in_factor, options.centre, options.threads));
   kernel.factor_unit = 1.0 / in_factor;
   if (options.independent_fraction > 0.0) {
-    kernel.centre = weighted_mean(points, weights, weight_sum);
+    kernel.centre = weighted_mean(points, weights, weight_sum, options.threads);
   }
   kernel.scale = fixed || from.proposal_scale == 0.0 ? initial_scale(options) : from.proposal_scale;
   kernel.divide_by_sqrt_size =
@@ -168,9 +169,13 @@ Workspace::Workspace(const Problem& problem, const Options& options, const Strea
 
 State initial_state(const Problem& problem, const Options& options, const StreamKey& key) {
   State state;
-  state.points = problem.prior.sample(options.samples, key);
+  state.points = problem.prior.sample(options.samples, key, options.threads);
   state.log_likelihood.resize(options.samples);
-  problem.log_likelihood(state.points, state.log_likelihood);
+  for_each_block(options.samples, rows_per_call(options.samples, options.threads, options.batch_rows),
+                 options.threads, [&](Index, Index begin, Index end) {
+                   problem.log_likelihood(state.points.middleRows(begin, end - begin),
+                                          state.log_likelihood.segment(begin, end - begin));
+                 });
   state.evaluations = options.samples;
   state.genealogy.chains = options.samples;
   require_valid(state.points, state.log_likelihood);
@@ -197,7 +202,7 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   work.weights.resize(static_cast<std::size_t>(n));
   WeightSums sums{static_cast<double>(n), 0.0};
   if (record.step > 0.0) {
-    sums = relative_weights(as_span(from.log_likelihood), record.step, work.weights);
+    sums = relative_weights(as_span(from.log_likelihood), record.step, work.weights, options.threads);
   } else {
     std::fill(work.weights.begin(), work.weights.end(), 1.0);
   }
@@ -205,13 +210,13 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   auto& ancestors = work.ancestors;
   ancestors.resize(static_cast<std::size_t>(chains_of(options)));
   resample(options.resampling, work.weights, key, static_cast<std::uint32_t>(record.stage), ancestors,
-           work.resampling);
+           work.resampling, options.threads);
   StageKernels kernels = kernels_of(problem, options, from, work.weights, sums.sum, ancestors);
   for (MetropolisKernel& kernel : kernels.kernels) {
     kernel.beta = record.beta;
   }
   record.distinct_ancestors = count_distinct(ancestors);
-  to.gather(from.points, from.log_likelihood, ancestors);
+  to.gather(from.points, from.log_likelihood, ancestors, options.threads);
   record_descent(options, ancestors, from, to);
 
   const bool last = record.beta == 1.0;
@@ -286,11 +291,11 @@ Result run(const Problem& problem, const Options& options, const StreamKey& key,
 }
 
 Result run(const Problem& problem, const Options& options, const StreamKey& key, const Observer& observer) {
-  std::vector<double> weights;
   return run(
       problem, options, key,
       [&](const State& state) {
-        return choose_step(as_span(state.log_likelihood), 1.0 - state.beta, options.criterion, weights);
+        return choose_step(as_span(state.log_likelihood), 1.0 - state.beta, options.criterion,
+                           options.threads);
       },
       observer);
 }

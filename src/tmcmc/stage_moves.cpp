@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "portable_math/sums.hpp"
+#include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
 
@@ -115,18 +116,20 @@ StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index 
 }  // namespace
 
 void Walkers::gather(const Population& from_points, const Eigen::VectorXd& from_log_likelihood,
-                     std::span<const Index> rows) {
+                     std::span<const Index> rows, int threads) {
   const auto n = static_cast<Index>(rows.size());
   points.resize(n, from_points.cols());
   log_likelihood.resize(n);
-  for (Index j = 0; j < from_points.cols(); ++j) {
-    for (Index i = 0; i < n; ++i) {
-      points(i, j) = from_points(rows[static_cast<std::size_t>(i)], j);
+  for_each_block(n, reduction_rows, threads, [&](Index, Index begin, Index end) {
+    for (Index j = 0; j < from_points.cols(); ++j) {
+      for (Index i = begin; i < end; ++i) {
+        points(i, j) = from_points(rows[static_cast<std::size_t>(i)], j);
+      }
     }
-  }
-  for (Index i = 0; i < n; ++i) {
-    log_likelihood[i] = from_log_likelihood[rows[static_cast<std::size_t>(i)]];
-  }
+    for (Index i = begin; i < end; ++i) {
+      log_likelihood[i] = from_log_likelihood[rows[static_cast<std::size_t>(i)]];
+    }
+  });
 }
 
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "portable_math/sums.hpp"
+#include "portable_math/elementary.hpp"
 
 namespace tmcmc {
 
@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// target), and the same through N_eff. Increasing in the step.
 class Excess {
  public:
-  Excess(WeightStatistics& statistics, const Criterion& criterion, Index counted)
+  Excess(const WeightStatistics& statistics, const Criterion& criterion, Index counted)
       : statistics_(statistics), criterion_(criterion), counted_(static_cast<double>(counted)) {}
 
   double operator()(double step) {
@@ -37,32 +37,11 @@ class Excess {
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
-  WeightStatistics& statistics_;
+  const WeightStatistics& statistics_;
   Criterion criterion_;
   double counted_;
   int evaluations_ = 0;
 };
-
-/// Standard deviation of the feasible log-likelihoods, from their differences to the largest.
-double spread(ConstDoubles log_likelihood, Index feasible) {
-  const double n = static_cast<double>(feasible);
-  const double largest = *std::max_element(log_likelihood.begin(), log_likelihood.end());
-  const auto feasible_mean = [&](auto term) {
-    return portable_math::sum_of(log_likelihood.size(), [&](std::size_t i) {
-      return log_likelihood[i] == -infinity ? 0.0 : term(log_likelihood[i] - largest) / n;
-    });
-  };
-  const double mean = feasible_mean([](double value) { return value; });
-  double scale = 0.0;
-  for (const double value : log_likelihood) {
-    scale = value == -infinity ? scale : std::max(scale, std::fabs(value - largest - mean));
-  }
-  if (!(scale > 0.0) || !std::isfinite(scale)) {
-    return 0.0;
-  }
-  return scale * std::sqrt(feasible_mean(
-                     [&](double value) { return (value - mean) / scale * ((value - mean) / scale); }));
-}
 
 }  // namespace
 
@@ -85,14 +64,9 @@ Criterion effective_sample_size_rule(double fraction) {
   return {.kind = CriterionKind::effective_sample_size, .target = fraction};
 }
 
-Transition choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion) {
-  std::vector<double> weights;
-  return choose_step(log_likelihood, remaining, criterion, weights);
-}
-
 Transition choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion,
-                       std::vector<double>& weights) {
-  WeightStatistics statistics(log_likelihood, weights);
+                       int threads) {
+  const WeightStatistics statistics(log_likelihood, threads);
   const Index feasible = statistics.feasible();
   const Index counted =
       criterion.counted == Counted::all ? static_cast<Index>(log_likelihood.size()) : feasible;
@@ -122,7 +96,7 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
     return result;
   }
 
-  const double sd = spread(log_likelihood, feasible);
+  const double sd = statistics.log_likelihood_spread();
   double high = remaining;
   double excess_high = excess_remaining;
   double low = std::min(0.5 * remaining, sd > 0.0 ? 0.9 / sd : remaining);

@@ -51,10 +51,8 @@ struct Transition {
 /// and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
 /// \param log_likelihood  free of NaN and plus infinity
 /// \param remaining  1 - beta, positive
-/// \param weights  work space, to be reused from call to call
+/// \param threads  the result does not depend on it
 [[nodiscard]] Transition choose_step(ConstDoubles log_likelihood, double remaining,
-                                     const Criterion& criterion, std::vector<double>& weights);
-[[nodiscard]] Transition choose_step(ConstDoubles log_likelihood, double remaining,
-                                     const Criterion& criterion);
+                                     const Criterion& criterion, int threads = 1);
 
 }  // namespace tmcmc

@@ -11,6 +11,7 @@
 
 #include "data/columns.hpp"
 #include "friction/likelihood.hpp"
+#include "friction/long_double.hpp"
 
 namespace {
 
@@ -51,43 +52,46 @@ Eigen::VectorXd evaluate(const Likelihood& likelihood, const Eigen::MatrixXd& po
   return values;
 }
 
-/// Phase angle in long double: the closed form of the first Fourier coefficient.
-long double exact_phase_deg(long double r, long double phi) {
-  constexpr long double pi = std::numbers::pi_v<long double>;
-  const long double u = std::sin(pi / r) / (r * (1.0L + std::cos(pi / r)));
-  const long double v = 1.0L / (1.0L - r * r);
-  const long double x0 = std::sqrt(v * v - phi * phi * u * u);
-  return std::atan2(4.0L / pi * phi * x0, v + 4.0L / pi * u * phi * phi) * 180.0L / pi;
-}
+/// Eq. 24 in long double: the product over the observations of two normal densities, one factor after the other.
+class DirectLikelihood {
+ public:
+  DirectLikelihood(const Observations& data, const Physics& physics)
+      : data_(data),
+        driving_force_n_(physics.driving_force_n),
+        phases_(long_double::phases(data.measured_ratio, physics.phase)) {
+    for (const double r : data.measured_ratio) {
+      limit_ = std::min(limit_, friction::response_constants(r, physics).limit_force_ratio);
+    }
+  }
 
-/// Eq. 24: the product over the observations of two normal densities, one factor after the other.
-double direct_log_likelihood(const Observations& data, const Physics& physics,
-                             const Eigen::RowVector4d& theta) {
-  const auto log_normal = [](long double x, long double mean, long double sigma) {
-    const long double z = (x - mean) / sigma;
-    return -0.5L * z * z - std::log(sigma) - 0.5L * std::log(2.0L * std::numbers::pi_v<long double>);
-  };
-  const long double phi = static_cast<long double>(theta[0]) / physics.driving_force_n;
-  long double sum = 0.0L;
-  for (std::size_t n = 0; n < data.size(); ++n) {
-    const auto constants = friction::response_constants(data.measured_ratio[n], physics);
-    if (theta[0] / physics.driving_force_n > constants.limit_force_ratio) {
+  double operator()(const Eigen::RowVector4d& theta) const {
+    const auto log_normal = [](long double x, long double mean, long double sigma) {
+      const long double z = (x - mean) / sigma;
+      return -0.5L * z * z - std::log(sigma) - 0.5L * std::log(2.0L * long_double::pi);
+    };
+    if (theta[0] / driving_force_n_ > limit_) {
       return -infinity;
     }
-    const long double phase = physics.phase == PhaseRule::fourier_coefficient
-                                  ? exact_phase_deg(data.measured_ratio[n], phi)
-                                  : friction::phase_deg(constants, static_cast<double>(phi));
-    sum += log_normal(data.nominal_ratio[n],
-                      static_cast<long double>(data.driving_frequency_hz[n]) / theta[1], theta[3]);
-    sum += log_normal(data.phase_deg[n], phase, theta[2]);
+    long double sum = 0.0L;
+    for (std::size_t n = 0; n < data_.size(); ++n) {
+      sum += log_normal(data_.nominal_ratio[n],
+                        static_cast<long double>(data_.driving_frequency_hz[n]) / theta[1], theta[3]);
+      sum += log_normal(data_.phase_deg[n], phases_[n](static_cast<long double>(theta[0]) / driving_force_n_),
+                        theta[2]);
+    }
+    return static_cast<double>(sum);
   }
-  return static_cast<double>(sum);
-}
+
+ private:
+  const Observations& data_;
+  double driving_force_n_;
+  std::vector<long_double::Phase> phases_;
+  double limit_ = infinity;
+};
 
 }  // namespace
 
-TEST_CASE("log-likelihoods of the published physics against reference values",
-          "[friction][likelihood]") {
+TEST_CASE("log-likelihoods of the published physics against reference values", "[friction][likelihood]") {
   const auto reference = test_data::read_columns(TEST_DATA_DIR "/log_likelihood_discrete_bin.csv");
   const auto& expected = reference.at("log_likelihood");
   const auto n = static_cast<Eigen::Index>(expected.size());
@@ -111,13 +115,14 @@ TEST_CASE("a batch is Eq. 24, row by row, at every size", "[friction][likelihood
   const Observations data = test_data::table1();
   for (const Physics& physics : {exact, published}) {
     const Likelihood likelihood(data, physics);
+    const DirectLikelihood direct(data, physics);
     for (const Eigen::Index n : {1, 63, 64, 65, 1000}) {
       const Eigen::MatrixXd points = random_points(n, static_cast<std::uint64_t>(n));
       const Eigen::VectorXd values = evaluate(likelihood, points);
       Eigen::Index infeasible = 0;
       for (Eigen::Index i = 0; i < n; ++i) {
         CAPTURE(n, i, points.row(i));
-        const double expected = direct_log_likelihood(data, physics, points.row(i));
+        const double expected = direct(points.row(i));
         if (expected == -infinity) {
           CHECK(values[i] == -infinity);
           ++infeasible;
@@ -126,6 +131,54 @@ TEST_CASE("a batch is Eq. 24, row by row, at every size", "[friction][likelihood
         }
       }
       CHECK((n == 1 || (infeasible > n / 10 && infeasible < n / 2)));
+    }
+  }
+}
+
+TEST_CASE("the log-likelihood is accurate up to the stick-slip limit", "[friction][likelihood]") {
+  const Observations data = test_data::table1();
+  for (const Physics& physics : {exact, published}) {
+    const Likelihood likelihood(data, physics);
+    const DirectLikelihood direct(data, physics);
+    Eigen::MatrixXd points = random_points(2000, 11);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {  // below the limit by 1e-15 to 1 of it
+      points(i, 0) = likelihood.limit_friction_force_n() *
+                     (1.0 - std::pow(10.0, -15.0 * static_cast<double>(i) / 1999.0));
+    }
+    const Eigen::VectorXd values = evaluate(likelihood, points);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      CAPTURE(i, points.row(i));
+      CHECK_THAT(values[i], WithinRel(direct(points.row(i)), direct_tolerance));
+    }
+  }
+}
+
+TEST_CASE("the phases of a batch are accurate to 1e-10 deg", "[friction][likelihood]") {
+  // One observation of 0 deg with unit noise levels and no misfit of the frequency: the phase is what is left.
+  constexpr double phase_tolerance = 1e-10;  // deg
+  constexpr Eigen::Index n = 1000;
+  std::vector<double> ratios = test_data::table1().measured_ratio;
+  // Not within 1 % of a resonance, where U has the condition number of tan beside pi/2: 1e-9 deg there.
+  ratios.insert(ratios.end(), {0.22, 0.38, 0.5, 0.55, 0.9, 1.1, 2.5, 4.0, 10.0});
+  const Eigen::MatrixXd random = random_points(n, 12);
+  for (const Physics& physics : {exact, published}) {
+    for (const double r : ratios) {
+      const Likelihood likelihood({{r}, {r}, {r}, {0.0}}, physics);
+      const long_double::Phase phase(r, physics.phase);
+      Eigen::MatrixXd points = Eigen::MatrixXd::Ones(n, 4);
+      for (Eigen::Index i = 0; i < n; ++i) {  // half of them uniform, half of them close to the limit
+        const double fraction = i % 2 == 0 ? random(i, 0) / 2.0 : 1.0 - std::pow(10.0, -1.6 * random(i, 1));
+        points(i, 0) = likelihood.limit_friction_force_n() * fraction;
+      }
+      points(n - 1, 0) = likelihood.limit_friction_force_n() * (1.0 - 1e-15);
+      const Eigen::VectorXd values = evaluate(likelihood, points);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const long double squared = -2.0L * (values[i] + std::log(2.0L * long_double::pi));
+        const auto found = static_cast<double>(std::sqrt(std::max(squared, 0.0L)));
+        CAPTURE(r, i, points(i, 0));
+        CHECK_THAT(found, WithinAbs(static_cast<double>(phase(points(i, 0) / physics.driving_force_n)),
+                                    phase_tolerance));
+      }
     }
   }
 }

@@ -144,6 +144,7 @@ TEST_CASE("p-box areas of given runs, by hand", "[study]") {
                               run_with({{5.0, 36.0}, {0.0, 20.0}, {4.0, 10.0}})};
   const Eigen::VectorXd areas = study::pbox_areas(runs);
   REQUIRE(areas.size() == 2);
+  CHECK(study::pbox_areas(runs, 2) == areas);
   CHECK_THAT(areas[0], WithinRel(7.0 / 3.0, rounding));
   CHECK_THAT(areas[1], WithinRel(2.0, rounding));
   CHECK(study::pbox_areas({runs[0]}).isZero(0.0));

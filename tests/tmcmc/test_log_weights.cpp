@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tmcmc/log_weights.hpp"
+#include "tmcmc/parallel.hpp"
 #include "tmcmc/statistics.hpp"
 
 namespace {
@@ -227,11 +228,10 @@ TEST_CASE("all infeasible: no weight", "[tmcmc][log_weights]") {
   CHECK(weights == Values(l.size(), 0.0));
 }
 
-TEST_CASE("a search over many steps gets the same bits from its work space", "[tmcmc][log_weights]") {
+TEST_CASE("one object gives every step the same bits as a call of its own", "[tmcmc][log_weights]") {
   Values l = random_log_likelihoods(Shape::exponential, 101, 5.0, 9);
   l[7] = -infinity;
-  Values work(3, -1.0);  // neither length nor content matters
-  tmcmc::WeightStatistics statistics(l, work);
+  const tmcmc::WeightStatistics statistics(l);
   CHECK(statistics.feasible() == 100);
   for (const double step : {0.1, 1.0, 0.01}) {
     CAPTURE(step);
@@ -243,30 +243,59 @@ TEST_CASE("a search over many steps gets the same bits from its work space", "[t
   }
 }
 
-TEST_CASE("counting feasible samples leaves the others out", "[tmcmc][log_weights]") {
-  const Values feasible = random_log_likelihoods(Shape::normal, 100, 2.0, 3);
-  Values with_others;
-  for (const double value : feasible) {
-    with_others.insert(with_others.end(), {-infinity, value, -infinity});
+TEST_CASE("over many blocks the measures agree with long double, bit for bit on any number of threads",
+          "[tmcmc][log_weights]") {
+  constexpr auto block = static_cast<std::size_t>(tmcmc::reduction_rows);
+  for (const std::size_t n : {block, block + 1, 5 * block - 1}) {
+    for (const double step : {1e-9, 0.3}) {  // weights that differ in the ninth digit, and by decades
+      CAPTURE(n, step);
+      const Values feasible = random_log_likelihoods(Shape::exponential, n, 5.0, n);
+      Values l = feasible;
+      l.insert(l.begin() + 1000, 2 * block, -infinity);  // a block without a feasible sample
+      const Exact e = exact_moments(feasible, step);
+      const auto count = static_cast<long double>(n);
+      const double cov = static_cast<double>(std::sqrt(e.squared_deviations / count) / (e.sum / count));
+      const tmcmc::WeightStatistics statistics(l);
+      CHECK(statistics.feasible() == static_cast<tmcmc::Index>(n));
+      // Rounding of a weight near 1, which a CoV of 1e-9 shows.
+      CHECK_THAT(statistics.coefficient_of_variation(step, Deviation::population, Counted::feasible),
+                 WithinRel(cov, 1e-12) || WithinAbs(cov, 2.0 * std::numeric_limits<double>::epsilon()));
+      CHECK_THAT(statistics.effective_sample_size(step),
+                 WithinRel(static_cast<double>(e.sum * e.sum / e.sum_of_squares), 1e-12));
+      Values weights(l.size());
+      const auto sums = tmcmc::relative_weights(l, step, weights);
+      CHECK_THAT(sums.sum, WithinRel(static_cast<double>(e.sum), 1e-12));
+      for (const int threads : {2, 3}) {
+        const tmcmc::WeightStatistics again(l, threads);
+        CHECK(again.effective_sample_size(step) == statistics.effective_sample_size(step));
+        CHECK(again.log_likelihood_spread() == statistics.log_likelihood_spread());
+        for (const Counted counted : {Counted::all, Counted::feasible}) {
+          CHECK(again.coefficient_of_variation(step, Deviation::sample, counted) ==
+                statistics.coefficient_of_variation(step, Deviation::sample, counted));
+        }
+        Values same(l.size());
+        CHECK(tmcmc::relative_weights(l, step, same, threads).sum == sums.sum);
+        CHECK(same == weights);
+      }
+    }
   }
-  CHECK(tmcmc::count_feasible(with_others) == 100);
-  CHECK(tmcmc::count_feasible(feasible) == 100);
-  for (const Deviation deviation : {Deviation::population, Deviation::sample}) {
-    CHECK_THAT(coefficient_of_variation(with_others, 0.5, deviation, Counted::feasible),
-               WithinRel(coefficient_of_variation(feasible, 0.5, deviation, Counted::all), rounding));
-  }
-  CHECK_THAT(effective_sample_size(with_others, 0.5),
-             WithinRel(effective_sample_size(feasible, 0.5), rounding));
-  CHECK_THAT(log_mean_weight(with_others, 0.5),
-             WithinRel(log_mean_weight(feasible, 0.5) - std::log(3.0), rounding));
 }
 
-TEST_CASE("log-likelihoods of +-1e300 neither overflow nor lose the small step", "[tmcmc][log_weights]") {
-  const Values l{1e300, -1e300, 1e300, -1e300};
-  CHECK(effective_sample_size(l, 1.0) == 2.0);
-  CHECK_THAT(coefficient_of_variation(l, 1.0), WithinRel(1.0, rounding));
-  const double a = std::exp(-2.0);  // step times gap is 2
-  CHECK_THAT(effective_sample_size(l, 1e-300),
-             WithinRel((2.0 + 2.0 * a) * (2.0 + 2.0 * a) / (2.0 + 2.0 * a * a), rounding));
-  CHECK_THAT(log_mean_weight(l, 1e-300), WithinRel(1.0 + std::log(0.5 * (1.0 + a)), rounding));
+TEST_CASE("the spread of the log-likelihoods is their standard deviation over the feasible samples",
+          "[tmcmc][log_weights]") {
+  for (const std::size_t n : {101U, 10001U}) {
+    Values l = random_log_likelihoods(Shape::normal, n, 3.0, n);
+    l[0] = -infinity;
+    long double mean = 0.0L;
+    for (std::size_t i = 1; i < n; ++i) {
+      mean += l[i] / static_cast<long double>(n - 1);
+    }
+    long double variance = 0.0L;
+    for (std::size_t i = 1; i < n; ++i) {
+      variance += (l[i] - mean) * (l[i] - mean) / static_cast<long double>(n - 1);
+    }
+    CHECK_THAT(tmcmc::WeightStatistics(l).log_likelihood_spread(),
+               WithinRel(static_cast<double>(std::sqrt(variance)), 1e-12));
+  }
+  CHECK(tmcmc::WeightStatistics(Values(9, -3.0)).log_likelihood_spread() == 0.0);
 }

@@ -124,6 +124,7 @@ TEST_CASE("prior draws depend on row and key alone", "[tmcmc][prior]") {
   CHECK((prior.sample(1000, {.seed = 1}).topRows(10) == few));
   CHECK((prior.sample(10, {.seed = 2}) != few));
   CHECK((prior.sample(10, {.seed = 1, .run = 1}) != few));
+  CHECK((prior.sample(10001, {.seed = 1}, 3) == prior.sample(10001, {.seed = 1})));
 }
 
 TEST_CASE("prior draws stay inside a box as narrow as two doubles", "[tmcmc][prior]") {
@@ -162,7 +163,7 @@ TEST_CASE("a prior without a box is refused, naming the parameter", "[tmcmc][pri
 }
 
 TEST_CASE("the proposal covariance is Eq. 5, about either mean", "[tmcmc][proposal]") {
-  for (const Index n : {2, 7, 8, 9, 500}) {
+  for (const Index n : {2, 7, 8, 9, 500, 10001}) {  // the last takes three blocks
     for (const Index d : {1, 2, 5}) {
       CAPTURE(n, d);
       const Weighted s = random_weighted(n, d, static_cast<std::uint64_t>(10 * n + d));
@@ -170,6 +171,7 @@ TEST_CASE("the proposal covariance is Eq. 5, about either mean", "[tmcmc][propos
         const Eigen::MatrixXd covariance = covariance_of(s, 0.2, centre);
         CHECK(largest_difference(covariance, exact_covariance(s, 0.2, centre)) < rounding);
         CHECK(covariance == covariance.transpose());
+        CHECK(covariance == proposal_covariance(s.points, s.weights, s.sum, 0.2, centre, 3));
       }
     }
   }

@@ -1,9 +1,11 @@
 // A result depends on problem, options and seed alone: not on threads, batches or a constant in the likelihood.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
+#include "tmcmc/parallel.hpp"
 #include "tmcmc/problems.hpp"
 #include "tmcmc/sampler.hpp"
 
@@ -76,6 +78,36 @@ TEST_CASE("neither threads nor batches change a bit of a run", "[tmcmc][sampler]
       }
     }
   }
+}
+
+TEST_CASE("threads change no bit of a run over many blocks", "[tmcmc][sampler]") {
+  Options options = few_samples();
+  options.samples = 2 * tmcmc::reduction_rows + 1001;
+  const Result reference = run_ridge(options);
+  for (const int threads : {2, 3}) {
+    CAPTURE(threads);
+    options.threads = threads;
+    options.batch_rows = threads == 2 ? 0 : 512;
+    check_same_bits(run_ridge(options), reference);
+  }
+}
+
+TEST_CASE("no call of the log-likelihood gets more than batch_rows rows", "[tmcmc][sampler]") {
+  Options options = few_samples();
+  options.batch_rows = 50;
+  const Problem exact = ridge();
+  Index most = 0;
+  const Problem watched = {
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+        most = std::max(most, points.rows());
+        exact.log_likelihood(points, values);
+      },
+      exact.prior};
+  check_same_bits(tmcmc::run(watched, options, {.seed = 5}), run_ridge(options));
+  CHECK(most == 50);
+  CHECK(tmcmc::rows_per_call(1000, 3, 2048) == 334);  // a small population too is shared among the threads
+  CHECK(tmcmc::rows_per_call(1000, 3, 0) == 334);
+  CHECK(tmcmc::rows_per_call(10000, 3, 2048) == 2048);
 }
 
 TEST_CASE("runs that differ in any field of their key differ", "[tmcmc][sampler]") {

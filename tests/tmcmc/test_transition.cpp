@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "tmcmc/parallel.hpp"
 #include "tmcmc/statistics.hpp"
 #include "tmcmc/transition.hpp"
 
@@ -318,10 +319,24 @@ TEST_CASE("the order of the samples leaves the step as it is but for rounding", 
   CHECK_THAT(choose_step(l, 1.0, ess_rule(0.5)).step, WithinRel(step, step_tolerance));
 }
 
-TEST_CASE("a work space of any length gives the same bits", "[tmcmc][transition]") {
-  const Values l = skewed(100, 5.0, 12);
-  Values work(7, -1.0);
-  CHECK(choose_step(l, 1.0, ess_rule(0.5), work).step == choose_step(l, 1.0, ess_rule(0.5)).step);
+TEST_CASE("the threads leave a step over many blocks as it is, and the whole is what its halves give",
+          "[tmcmc][transition]") {
+  Values l = skewed(3 * tmcmc::reduction_rows + 17, 20.0, 12);
+  l[5] = -infinity;
+  for (const auto& rule : {cov_rule(1.0), ess_rule(0.5)}) {
+    const Transition one = choose_step(l, 1.0, rule);
+    CHECK(one.status == TransitionStatus::solved);
+    for (const int threads : {2, 3}) {
+      const Transition many = choose_step(l, 1.0, rule, threads);
+      CHECK(many.step == one.step);
+      CHECK(many.effective_sample_size == one.effective_sample_size);
+      CHECK(many.coefficient_of_variation == one.coefficient_of_variation);
+      CHECK(many.evaluations == one.evaluations);
+    }
+    Values twice = l;
+    twice.insert(twice.end(), l.begin(), l.end());
+    CHECK_THAT(choose_step(twice, 1.0, rule).step, WithinRel(one.step, step_tolerance));
+  }
 }
 
 TEST_CASE("the rules of the paper", "[tmcmc][transition]") {
