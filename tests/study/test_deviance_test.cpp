@@ -158,6 +158,13 @@ TEST_CASE("the standard error is what other replicated runs would change", "[cou
   });
 }
 
+TEST_CASE("few tables are an error too", "[counts]") {
+  const std::vector<Counts> many = {{{9, 100000}, {10, 200000}, {11, 100000}}};
+  const auto test = test_tables({printed}, {many}, {.tables = 500, .resamples = 2});
+  const double p = test.p.value;
+  CHECK_THAT(test.p.standard_error, WithinRel(std::sqrt(p * (1.0 - p) / 501.0), 0.1));
+}
+
 TEST_CASE("quantiles of the null", "[counts]") {
   // For many runs the deviance is chi^2 with 2 degrees of freedom: 95 % at -2 log 0.05, central 95 % likewise.
   const auto test = test_tables({{{9, 300}, {10, 300}, {11, 400}}}, {{{{9, 3000}, {10, 3000}, {11, 4000}}}});

@@ -213,6 +213,10 @@ TEST_CASE("equivalence of medians", "[verdict]") {
   CHECK(same.equivalent);
   CHECK_FALSE(same.different);
   CHECK_THAT(same.ratio, WithinAbs(1.0, 1e-15));
+  CHECK_THAT(
+      median_ratio_equivalence(std::vector<double>{2.0}, std::vector<double>{9.0, 2.0, 3.0, 1.0}, 0.1, 1)
+          .ratio,
+      WithinRel(1.25, 1e-14));
   const auto twice = median_ratio_equivalence(near, far, 0.1, 1);
   CHECK_FALSE(twice.equivalent);
   CHECK(twice.different);
