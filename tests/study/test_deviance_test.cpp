@@ -140,28 +140,34 @@ TEST_CASE("the standard error is what other replicated runs would change", "[cou
   const Counts first = {{9, 6}, {10, 44}, {11, 0}};
   const Counts second = {{9, 5}, {10, 36}, {11, 9}};
   constexpr int repetitions = 60;
-  const auto spread = [&](auto test) {
+  const auto spread = [&](int runs, auto test) {
     std::vector<double> p, error;
     for (std::uint32_t k = 0; k < repetitions; ++k) {
-      const DevianceTest result = test(draw(truth, 4000, k), k);
+      const DevianceTest result = test(draw(truth, runs, k), k);
       p.push_back(result.p.value);
       error.push_back(result.p.standard_error);
     }
     // the sd of an sd of 60 is 9 %
     CHECK_THAT(moments(error).mean, WithinRel(moments(p).standard_deviation, 0.36));
   };
-  spread([&](const Counts& runs, std::uint64_t k) {
+  spread(4000, [&](const Counts& runs, std::uint64_t k) {
     return test_tables({first}, {{runs}}, {.tables = 20000, .resamples = 50, .seed = k});
   });
-  spread([&](const Counts& runs, std::uint64_t k) {
+  spread(4000, [&](const Counts& runs, std::uint64_t k) {
     return test_tables({first, second}, {{runs}}, {.tables = 20000, .resamples = 50, .seed = k});
+  });
+  // Here the tail itself does not depend on the probabilities, only how likely it is.
+  const Counts less = {{9, 5}, {10, 42}, {11, 3}};
+  spread(1000, [&](const Counts& runs, std::uint64_t k) {
+    return test_two_tables(first, less, {runs}, {.tables = 20000, .resamples = 50, .seed = k});
   });
 }
 
 TEST_CASE("few tables are an error too", "[counts]") {
   const std::vector<Counts> many = {{{9, 100000}, {10, 200000}, {11, 100000}}};
-  const auto test = test_tables({printed}, {many}, {.tables = 500, .resamples = 2});
+  const auto test = test_tables({{{9, 5}, {10, 4}, {11, 3}}}, {many}, {.tables = 500, .resamples = 2});
   const double p = test.p.value;
+  REQUIRE((p > 0.1 && p < 0.9));
   CHECK_THAT(test.p.standard_error, WithinRel(std::sqrt(p * (1.0 - p) / 501.0), 0.1));
 }
 
