@@ -11,7 +11,7 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures paper compare test verify identical bench scaling clean
+.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling clean
 .SECONDARY:
 
 help:
@@ -24,6 +24,7 @@ help:
 	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
 	@echo 'make test      build and run the tests'
 	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
+	@echo 'make another-seed  replicated studies with SEED=2, and whether every verdict is the same'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
 	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
@@ -150,7 +151,7 @@ $(VALIDATION) &: $(BIN)/model_validation $(TABLE1) $(PRIOR) | $(GEN)/.
 	  --errors-output $(GEN)/model_validation_errors.csv --posterior-output $(GEN)/model_validation_posterior.csv
 
 # Replicated studies: STUDIES of 50 runs of each sampler. A build that was stopped goes on from the journal.
-STUDIES ?= 400
+STUDIES ?= 1000
 
 $(GEN)/replicated_study.csv: $(BIN)/replicated_study $(TABLE1) $(PRIOR) | $(GEN)/.
 	$< --observations $(TABLE1) --studies $(STUDIES) --quiet --output $@
@@ -265,6 +266,11 @@ verify: build
 	  cmp "$$f" "build/verify/$$f" || status=1; done; \
 	if [ $$status = 0 ]; then echo 'verify: all generated files agree with the committed ones'; \
 	else echo 'verify: files differ'; exit 1; fi
+
+SEED ?= 2
+
+another-seed: build $(GEN)/compare_published.md $(GEN)/verdicts.md
+	tools/another_seed $(BIN) $(GEN) $(PUB) $(SEED) $(STUDIES)
 
 bench: $(BUILD)/.built
 	cmake --preset release -DTMCMC_BUILD_BENCHMARKS=ON $(CMAKE_FLAGS) >$(BUILD).configure.log 2>&1

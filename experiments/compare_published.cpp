@@ -19,7 +19,7 @@ struct Cell {
   std::string table, row, column;
   double printed, ours;
   study::Interval95 interval = {missing_value, missing_value};  // of replicated studies
-  double p = missing_value;
+  study::PValue p = {missing_value, missing_value};             // adjusted by Holm
   std::string verdict = {};
 };
 
@@ -53,30 +53,28 @@ void compare(std::vector<Cell>& cells, const std::string& name, const std::strin
 }
 
 /// Places the cells of Tables 3 and 4 in the distributions of replicated studies. A cell of Table 4 shows its own interval
-/// and the p-value of its column.
+/// and the p-value of the whole table.
 void judge(std::vector<Cell>& cells, const std::vector<study::StudySummary>& studies,
            const PrintedTables& printed) {
-  const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts);
-  const auto name = [](bool reproduced) { return reproduced ? "reproduced" : "not reproduced"; };
+  const auto null = null_of(studies, printed);
+  const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts, null);
   for (Cell& cell : cells) {
     for (const auto& v : verdicts.areas) {
       if (cell.table == "Table 3" && cell.row == v.sampler && cell.column == parameter_columns[v.parameter]) {
         cell.interval = v.interval;
         cell.p = v.p_holm;
-        cell.verdict = name(v.reproduced);
+        cell.verdict = study::name_of(v.number);
       }
     }
-    for (const auto& v : verdicts.counts) {
-      if (cell.table == "Table 4" && cell.column == v.sampler) {
-        std::vector<double> counts;
-        for (const auto& s : study::studies_of(studies, v.sampler)) {
-          const auto found = s.iterations.find(std::stol(cell.row));
-          counts.push_back(found == s.iterations.end() ? 0.0 : static_cast<double>(found->second));
-        }
-        cell.interval = study::central_95(counts);
-        cell.p = v.p_holm;
-        cell.verdict = name(v.reproduced);
+    if (cell.table == "Table 4") {
+      std::vector<double> counts;
+      for (const auto& s : study::null_studies(studies, cell.column, null)) {
+        const auto found = s.iterations.find(std::stol(cell.row));
+        counts.push_back(found == s.iterations.end() ? 0.0 : static_cast<double>(found->second));
       }
+      cell.interval = study::central_95(counts);
+      cell.p = verdicts.counts->p_holm;
+      cell.verdict = study::name_of(verdicts.counts->number);
     }
   }
 }
@@ -88,16 +86,17 @@ std::string blank_if_nan(double value, const char* format) {
 /// Tables 3 and 4 as they stand in the README.
 std::string markdown(const std::vector<Cell>& cells) {
   std::string text =
-      "| table | row | column | printed | ours | 95 % of replicated studies | p (Holm) | the printed number "
-      "is |\n"
-      "|---|---|---|---:|---:|---:|---:|---|\n";
+      "| table | row | column | printed | ours | 95 % of replicated studies | p (Holm) | standard error of p "
+      "| "
+      "the printed number is |\n"
+      "|---|---|---|---:|---:|---:|---:|---:|---|\n";
   for (const Cell& cell : cells) {
     if (cell.table == "Table 3" || cell.table == "Table 4") {
-      text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} to {} | {} | {} |\n", cell.table,
+      text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} to {} | {} | {} | {} |\n", cell.table,
                           cell.table == "Table 4" ? cell.row + " iterations" : cell.row, cell.column,
                           cell.printed, cell.ours, blank_if_nan(cell.interval.low, "{:.4g}"),
-                          blank_if_nan(cell.interval.high, "{:.4g}"), blank_if_nan(cell.p, "{:.2g}"),
-                          cell.verdict);
+                          blank_if_nan(cell.interval.high, "{:.4g}"), blank_if_nan(cell.p.value, "{:.2g}"),
+                          blank_if_nan(cell.p.standard_error, "{:.1g}"), cell.verdict);
     }
   }
   return text;
@@ -114,7 +113,8 @@ int main(int argc, char** argv) {
   std::string table3 = "data/generated/table3_pbox_area.csv";
   std::string table4 = "data/generated/table4_iteration_counts.csv";
   std::string replicated;
-  program.add_output("CSV: table, row, column, printed, ours, difference, low, high, p_holm, verdict");
+  program.add_output(
+      "CSV: table, row, column, printed, ours, difference, low, high, p_holm, p_error, verdict");
   std::string markdown_output;
   program.add_file_output("--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
   auto& app = program.app();
@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
     if (!program.output().empty()) {
       csv.emplace(program.output(),
                   std::vector<std::string>{"table", "row", "column", "printed", "ours", "difference", "low",
-                                           "high", "p_holm", "verdict"});
+                                           "high", "p_holm", "p_error", "verdict"});
     }
     std::string table;
     for (const Cell& cell : cells) {
@@ -175,13 +175,14 @@ int main(int argc, char** argv) {
                        "printed number");
       }
       const std::string interval =
-          std::isnan(cell.p) ? "" : fmt::format("{:.4g} to {:.4g}", cell.interval.low, cell.interval.high);
+          std::isnan(cell.p.value) ? ""
+                                   : fmt::format("{:.4g} to {:.4g}", cell.interval.low, cell.interval.high);
       program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g} {:>22} {:>8}  {}\n", cell.row,
                      cell.column, cell.printed, cell.ours, cell.ours - cell.printed, interval,
-                     blank_if_nan(cell.p, "{:.2g}"), cell.verdict);
+                     blank_if_nan(cell.p.value, "{:.2g}"), cell.verdict);
       if (csv) {
         csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, cell.ours - cell.printed,
-                 cell.interval.low, cell.interval.high, cell.p, cell.verdict);
+                 cell.interval.low, cell.interval.high, cell.p.value, cell.p.standard_error, cell.verdict);
       }
     }
     if (csv) {

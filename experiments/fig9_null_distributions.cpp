@@ -30,7 +30,8 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     const auto studies = read_studies(replicated);
     const auto printed = read_printed_tables(table3, table4);
-    const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts);
+    const auto verdicts =
+        study::judge_tables(studies, printed.areas, printed.counts, null_of(studies, printed));
     std::optional<io::CsvWriter> csv, counts_csv, printed_csv;
     if (!program.output().empty()) {
       csv.emplace(program.output(), std::vector<std::string>{"sampler", "parameter", "area", "cumulative"});
@@ -46,9 +47,9 @@ int main(int argc, char** argv) {
     for (const auto& v : verdicts.areas) {
       const auto& parameter = parameter_columns[v.parameter];
       program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",
-                     v.sampler, parameter, v.printed, v.median, v.interval.low, v.interval.high, v.p);
+                     v.sampler, parameter, v.printed, v.median, v.interval.low, v.interval.high, v.p.value);
       if (printed_csv) {
-        printed_csv->row(v.sampler, parameter, v.printed, v.interval.low, v.interval.high, v.p);
+        printed_csv->row(v.sampler, parameter, v.printed, v.interval.low, v.interval.high, v.p.value);
       }
       std::vector<double> areas;
       for (const auto& s : study::studies_of(studies, v.sampler)) {
@@ -85,10 +86,16 @@ int main(int argc, char** argv) {
         }
       }
     }
-    for (const auto& v : verdicts.counts) {
-      program.report("{:<10} Table 4: deviance {:.3g}, 95 % of studies below {:.3g}, p = {:.3g}\n", v.sampler,
-                     v.statistic, v.critical, v.p);
+    const auto report_test = [&](const std::string& what, const study::DevianceTest& test) {
+      program.report(
+          "{:<10} Table 4: deviance {:.3g}, 95 % of tables below {:.3g}, p = {:.3g} (standard error "
+          "{:.1g})\n",
+          what, test.statistic, test.critical, test.p.value, test.p.standard_error);
+    };
+    for (std::size_t i = 0; i < printed.counts.size(); ++i) {
+      report_test(printed.counts[i].sampler, verdicts.counts->columns[i]);
     }
+    report_test("both", verdicts.counts->test);
     for (auto* file : {&csv, &counts_csv, &printed_csv}) {
       if (*file) {
         (*file)->commit();

@@ -251,4 +251,12 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
   return printed;
 }
 
+study::Null null_of(const std::vector<study::StudySummary>& studies, const PrintedTables& printed) {
+  if (printed.counts.size() != 2) {
+    throw io::InputError(fmt::format(
+        "Table 4 as printed: {} columns of counts: expected those of two samplers", printed.counts.size()));
+  }
+  return study::null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
+}
+
 }  // namespace experiments

@@ -72,4 +72,10 @@ struct PrintedTables {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] PrintedTables read_printed_tables(const std::string& table3, const std::string& table4);
 
+/// The null distribution for the two printed samplers: both samplers' studies if they are equivalent. The bootstrap behind
+/// that has a fixed seed of its own.
+/// \throws io::InputError unless two samplers were printed.
+[[nodiscard]] study::Null null_of(const std::vector<study::StudySummary>& studies,
+                                  const PrintedTables& printed);
+
 }  // namespace experiments

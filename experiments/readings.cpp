@@ -84,6 +84,20 @@ double mean_of(const std::vector<study::StudySummary>& studies, auto member) {
   return study::moments(values).mean;
 }
 
+struct Spread {
+  double median;
+  study::Interval95 interval;
+};
+
+Spread spread_of_areas(const std::vector<study::StudySummary>& studies, std::size_t parameter) {
+  std::vector<double> areas;
+  for (const auto& s : studies) {
+    areas.push_back(s.areas[parameter]);
+  }
+  std::sort(areas.begin(), areas.end());
+  return {study::sample_quantile(areas, 0.5), study::central_95(areas)};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -108,6 +122,7 @@ int main(int argc, char** argv) {
     const auto printed = read_printed_tables(table3, table4);
     auto options = run_options.study_options();
     const auto list = variants(samples);
+    const study::TableDraws tables{.tables = 50000, .resamples = 2};  // the standard error is not reported
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
       csv.emplace(
@@ -139,12 +154,18 @@ int main(int argc, char** argv) {
       }
       const auto exact =
           exact_posterior_for(inputs, friction::Likelihood(observations, variant.reading.physics), prior);
-      const auto verdicts = study::judge_tables(summaries, printed.areas, printed.counts);
-      const double log_likelihood = study::log_likelihood_of_tables(summaries, printed.areas, printed.counts);
+      // Under each reading both samplers are one algorithm (N_eff of 500 or 500.25): the studies of both are one null.
+      const auto null = study::Null::all_studies;
+      const auto verdicts = study::judge_tables(summaries, printed.areas, printed.counts, null, tables);
+      const double log_likelihood =
+          study::log_likelihood_of_tables(summaries, printed.areas, printed.counts, null);
       for (std::size_t a = 0; a < arms.size(); ++a) {
         const auto of_arm = study::studies_of(summaries, arms[a].name);
-        const auto& force = verdicts.areas[a];
-        const auto& frequency = verdicts.areas[arms.size() + a];
+        const Spread force = spread_of_areas(of_arm, friction::friction_force);
+        const Spread frequency = spread_of_areas(of_arm, friction::natural_frequency);
+        const double force_p = verdicts.areas[a].p.value;
+        const double frequency_p = verdicts.areas[arms.size() + a].p.value;
+        const double counts_p = verdicts.counts->columns[a].p.value;
         const double low = share(of_arm, 0, 9);
         const double ten = share(of_arm, 10, 10);
         const double force_error = mean_of(of_arm, [](const auto& s) { return s.means[0]; }) -
@@ -156,14 +177,13 @@ int main(int argc, char** argv) {
         program.report(
             "{:<22} {:<9} {:>8.4f} {:>7.4f}-{:<8.4f} {:>6.3f} {:>8.5f} {:>8.5f}-{:<8.5f} {:>6.3f} {:>5.2f} "
             "{:>5.2f} {:>6.2f} {:>6.3f} {:>+9.5f} {:>8.2f}\n",
-            variant.name, arms[a].name, force.median, force.interval.low, force.interval.high, force.p,
-            frequency.median, frequency.interval.low, frequency.interval.high, frequency.p, low, ten,
-            1.0 - low - ten, verdicts.counts[a].p, force_error, log_likelihood);
+            variant.name, arms[a].name, force.median, force.interval.low, force.interval.high, force_p,
+            frequency.median, frequency.interval.low, frequency.interval.high, frequency_p, low, ten,
+            1.0 - low - ten, counts_p, force_error, log_likelihood);
         if (csv) {
-          csv->row(variant.name, arms[a].name, force.median, force.interval.low, force.interval.high, force.p,
-                   frequency.median, frequency.interval.low, frequency.interval.high, frequency.p, low, ten,
-                   1.0 - low - ten, verdicts.counts[a].p, force_error, frequency_error, evidence_error,
-                   log_likelihood);
+          csv->row(variant.name, arms[a].name, force.median, force.interval.low, force.interval.high, force_p,
+                   frequency.median, frequency.interval.low, frequency.interval.high, frequency_p, low, ten,
+                   1.0 - low - ten, counts_p, force_error, frequency_error, evidence_error, log_likelihood);
         }
       }
     }

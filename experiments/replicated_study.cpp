@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
-  long studies = 400;
+  long studies = 1000;
   long first_study = 0;
   program.add_output(
       "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");

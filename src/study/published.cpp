@@ -33,6 +33,14 @@ std::vector<Counts> counts_of(const std::vector<StudySummary>& studies) {
   return counts;
 }
 
+std::vector<double> iterations_of(const std::vector<StudySummary>& studies) {
+  std::vector<double> means;
+  for (const auto& counts : counts_of(studies)) {
+    means.push_back(mean_iterations(counts));
+  }
+  return means;
+}
+
 double log_normal_density(double squared_distance, double log_determinant, double dimension) {
   constexpr double log_two_pi = 1.8378770664093453;
   return -0.5 * (squared_distance + log_determinant + dimension * log_two_pi);
@@ -84,6 +92,12 @@ std::vector<StudySummary> studies_of(const std::vector<StudySummary>& studies, c
   return result;
 }
 
+std::vector<StudySummary> null_studies(const std::vector<StudySummary>& studies, const std::string& sampler,
+                                       Null null) {
+  auto own = studies_of(studies, sampler);
+  return null == Null::all_studies ? studies : own;
+}
+
 double mean_iterations(const Counts& counts) {
   double sum = 0.0;
   double runs = 0.0;
@@ -96,97 +110,92 @@ double mean_iterations(const Counts& counts) {
 
 PublishedVerdicts judge_tables(const std::vector<StudySummary>& studies,
                                const std::vector<PrintedArea>& areas,
-                               const std::vector<PrintedCounts>& counts) {
+                               const std::vector<PrintedCounts>& counts, Null null, const TableDraws& draws) {
   PublishedVerdicts result;
-  std::vector<double> p;
+  std::vector<PValue> p;
   for (const auto& area : areas) {
-    auto null = areas_of(studies_of(studies, area.sampler), area.parameter);
-    std::sort(null.begin(), null.end());
+    auto sample = areas_of(null_studies(studies, area.sampler, null), area.parameter);
+    std::sort(sample.begin(), sample.end());
     CellVerdict cell;
     cell.sampler = area.sampler;
     cell.parameter = area.parameter;
     cell.printed = number(area.printed);
-    cell.median = sample_quantile(null, 0.5);
-    cell.interval = central_95(null);
-    cell.p = two_sided_p(null, cell.printed, rounding_half_width(area.printed));
+    cell.median = sample_quantile(sample, 0.5);
+    cell.p = two_sided_p(sample, cell.printed, rounding_half_width(area.printed));
+    cell.interval = central_95(std::move(sample));
     p.push_back(cell.p);
     result.areas.push_back(cell);
   }
-  for (const auto& column : counts) {
-    const auto replicated = counts_of(studies_of(studies, column.sampler));
-    const auto probabilities = category_probabilities(replicated, column.counts);
-    std::vector<double> null;
-    for (const Counts& c : replicated) {
-      null.push_back(deviance(c, probabilities));
-    }
+  if (!counts.empty()) {
     CountsVerdict verdict;
-    verdict.sampler = column.sampler;
-    verdict.statistic = deviance(column.counts, probabilities);
-    std::sort(null.begin(), null.end());
-    verdict.critical = sample_quantile(null, 0.95);
-    verdict.p = upper_p(null, verdict.statistic, 1e-9 * verdict.statistic);
-    p.push_back(verdict.p);
-    result.counts.push_back(verdict);
+    std::vector<Counts> printed;
+    std::vector<std::vector<Counts>> replicated;
+    for (const auto& column : counts) {
+      printed.push_back(column.counts);
+      replicated.push_back(counts_of(null_studies(studies, column.sampler, null)));
+      verdict.columns.push_back(test_tables({printed.back()}, {replicated.back()}, draws));
+    }
+    if (null == Null::all_studies) {
+      replicated.resize(1);
+    }
+    verdict.test = test_tables(printed, replicated, draws);
+    p.push_back(verdict.test.p);
+    result.counts = std::move(verdict);
   }
   const auto adjusted = holm(p);
   for (std::size_t i = 0; i < areas.size(); ++i) {
     result.areas[i].p_holm = adjusted[i];
-    result.areas[i].reproduced = adjusted[i] >= significance_level;
+    result.areas[i].number = judge_number(adjusted[i]);
   }
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    result.counts[i].p_holm = adjusted[areas.size() + i];
-    result.counts[i].reproduced = result.counts[i].p_holm >= significance_level;
+  if (result.counts) {
+    result.counts->p_holm = adjusted.back();
+    result.counts->number = judge_number(adjusted.back());
   }
   return result;
+}
+
+Null null_of(const std::vector<StudySummary>& studies, const std::string& first, const std::string& second,
+             std::uint64_t seed) {
+  const auto a = studies_of(studies, first);
+  const auto b = studies_of(studies, second);
+  bool one = median_ratio_equivalence(iterations_of(a), iterations_of(b), iteration_margin, seed).equivalent;
+  for (const std::size_t parameter : {std::size_t{0}, std::size_t{1}}) {
+    one = one && median_ratio_equivalence(areas_of(a, parameter), areas_of(b, parameter), area_margin, seed)
+                     .equivalent;
+  }
+  return one ? Null::all_studies : Null::own_studies;
 }
 
 ContrastVerdict contrast_areas(const std::vector<StudySummary>& studies, const std::string& first,
                                const std::string& second, std::size_t parameter, double printed_ratio,
-                               double margin, std::uint64_t seed) {
+                               std::uint64_t seed) {
   const auto a = areas_of(studies_of(studies, first), parameter);
   const auto b = areas_of(studies_of(studies, second), parameter);
-  std::vector<double> null;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    null.push_back(b[i] / a[i]);
-    null.push_back(a[i] / b[i]);
-  }
-  ContrastVerdict result;
-  result.printed = printed_ratio;
-  result.interval = central_95(null);
-  result.p = two_sided_p(null, printed_ratio);
-  result.replicated = median_ratio_equivalence(a, b, margin, seed);
-  return result;
+  auto both = a;
+  both.insert(both.end(), b.begin(), b.end());
+  const RatioTest test = test_ratio_of_equals(std::move(both), printed_ratio);
+  return {printed_ratio, test.interval, test.p, median_ratio_equivalence(a, b, area_margin, seed)};
 }
 
 ContrastVerdict contrast_iterations(const std::vector<StudySummary>& studies, const Counts& first_printed,
                                     const Counts& second_printed, const std::string& first,
-                                    const std::string& second, double margin, std::uint64_t seed) {
-  const auto a = counts_of(studies_of(studies, first));
-  const auto b = counts_of(studies_of(studies, second));
-  std::vector<double> null, mean_a, mean_b;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    null.push_back(two_sample_deviance(a[i], b[i]));
-  }
-  for (const auto& c : a) {
-    mean_a.push_back(mean_iterations(c));
-  }
-  for (const auto& c : b) {
-    mean_b.push_back(mean_iterations(c));
-  }
-  ContrastVerdict result;
-  result.printed = two_sample_deviance(first_printed, second_printed);
-  result.interval = central_95(null);
-  result.p = upper_p(null, result.printed, 1e-9 * result.printed);
-  result.replicated = median_ratio_equivalence(mean_a, mean_b, margin, seed);
-  return result;
+                                    const std::string& second, std::uint64_t seed, const TableDraws& draws) {
+  const auto a = studies_of(studies, first);
+  const auto b = studies_of(studies, second);
+  auto both = counts_of(a);
+  const auto of_second = counts_of(b);
+  both.insert(both.end(), of_second.begin(), of_second.end());
+  const DevianceTest test = test_two_tables(first_printed, second_printed, both, draws);
+  return {test.statistic, test.interval, test.p,
+          median_ratio_equivalence(iterations_of(a), iterations_of(b), iteration_margin, seed)};
 }
 
 double log_likelihood_of_tables(const std::vector<StudySummary>& studies,
                                 const std::vector<PrintedArea>& areas,
-                                const std::vector<PrintedCounts>& counts) {
+                                const std::vector<PrintedCounts>& counts, Null null) {
   double sum = 0.0;
   for (const auto& column : counts) {
-    const auto of_sampler = studies_of(studies, column.sampler);
+    const auto of_sampler = null_studies(studies, column.sampler, null);
     sum += log_multinomial(column.counts, category_probabilities(counts_of(of_sampler), column.counts));
     std::vector<const PrintedArea*> printed;
     for (const auto& area : areas) {

@@ -6,37 +6,32 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "portable_math/elementary.hpp"
+#include "study/study.hpp"
 #include "tmcmc/random.hpp"
 
 namespace study {
 
 namespace {
 
-double log_factorial(std::int64_t n) {
-  double sum = 0.0;
-  for (std::int64_t i = 2; i <= n; ++i) {
-    sum += portable_math::log(static_cast<double>(i));
-  }
-  return sum;
+double tail_p(std::int64_t tail, std::size_t draws) {
+  return static_cast<double>(tail + 1) / static_cast<double>(draws + 1);
 }
 
-std::int64_t total(const Counts& counts) {
-  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0},
-                         [](std::int64_t sum, const auto& cell) { return sum + cell.second; });
+/// Standard error of a tail share of independent draws.
+double binomial_error(double share, double draws) {
+  return std::sqrt(share * (1.0 - share) / draws);
 }
 
-double probability(const std::map<std::int64_t, double>& probabilities, std::int64_t category) {
-  const auto found = probabilities.find(category);
-  if (found == probabilities.end()) {
-    throw std::invalid_argument("category " + std::to_string(category) + ": expected one with a probability");
-  }
-  return found->second;
+double monte_carlo_error_95(const PValue& p) {
+  return 1.96 * p.standard_error;
 }
 
+/// Median as sample_quantile has it, without sorting all.
 double median(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  return sample_quantile(values, 0.5);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.size() % 2 == 1 ? *middle
+                                : *middle - 0.5 * (*middle - *std::max_element(values.begin(), middle));
 }
 
 }  // namespace
@@ -67,17 +62,56 @@ double sample_quantile(std::span<const double> sorted, double p) {
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-double upper_p(std::span<const double> null, double value, double half_width) {
-  const auto tail =
-      std::count_if(null.begin(), null.end(), [=](double x) { return x >= value - half_width; });
-  return static_cast<double>(tail + 1) / static_cast<double>(null.size() + 1);
+PValue upper_p(std::span<const double> null, double value, double half_width) {
+  const double p =
+      tail_p(std::count_if(null.begin(), null.end(), [=](double x) { return x >= value - half_width; }),
+             null.size());
+  return {p, binomial_error(p, static_cast<double>(null.size() + 1))};
 }
 
-double two_sided_p(std::span<const double> null, double value, double half_width) {
-  const auto lower =
-      std::count_if(null.begin(), null.end(), [=](double x) { return x <= value + half_width; });
-  const double lower_tail = static_cast<double>(lower + 1) / static_cast<double>(null.size() + 1);
-  return std::min(1.0, 2.0 * std::min(lower_tail, upper_p(null, value, half_width)));
+PValue two_sided_p(std::span<const double> null, double value, double half_width) {
+  const double lower =
+      tail_p(std::count_if(null.begin(), null.end(), [=](double x) { return x <= value + half_width; }),
+             null.size());
+  const double tail = std::min(lower, upper_p(null, value, half_width).value);
+  return {std::min(1.0, 2.0 * tail), 2.0 * binomial_error(tail, static_cast<double>(null.size() + 1))};
+}
+
+RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio) {
+  std::sort(sample.begin(), sample.end());
+  if (sample.size() < 2 || !(sample.front() > 0.0) || !(ratio > 0.0)) {
+    throw std::invalid_argument("ratio of equals: expected at least two numbers, and all positive");
+  }
+  const auto n = static_cast<double>(sample.size());
+  // The share of the other numbers that are at least r times x_i, and of those that x_i is at least r times of.
+  const auto shares = [&](double r) {
+    std::vector<double> of_each;
+    for (const double x : sample) {
+      const auto above = sample.end() - std::lower_bound(sample.begin(), sample.end(), r * x);
+      const auto below = std::upper_bound(sample.begin(), sample.end(), x / r) - sample.begin();
+      of_each.push_back(0.5 * static_cast<double>(above + below) / (n - 1.0));
+    }
+    return moments(of_each);
+  };
+  const double printed = std::max(ratio, 1.0 / ratio);
+  const double pairs = 0.5 * n;  // that are independent; the printed one counts as one more
+  RatioTest result;
+  if (printed == 1.0) {
+    result.p = {1.0, 0.0};
+  } else {
+    const Moments m = shares(printed);
+    const double tail = (m.mean * pairs + 1.0) / (pairs + 1.0);
+    const double error = m.mean > 0.0 ? 2.0 * m.standard_deviation / std::sqrt(n) : tail;
+    result.p = {std::min(1.0, 2.0 * tail), 2.0 * error};
+  }
+  double low = 1.0;
+  double high = sample.back() / sample.front();
+  for (int i = 0; i < 60 && low < high; ++i) {  // the tail share falls as r grows
+    const double middle = 0.5 * (low + high);
+    (shares(middle).mean > 0.025 ? low : high) = middle;
+  }
+  result.interval = {1.0 / high, high};
+  return result;
 }
 
 Interval95 central_95(std::vector<double> null) {
@@ -85,73 +119,22 @@ Interval95 central_95(std::vector<double> null) {
   return {sample_quantile(null, 0.025), sample_quantile(null, 0.975)};
 }
 
-std::vector<double> holm(const std::vector<double>& p) {
+std::vector<PValue> holm(const std::vector<PValue>& p) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
-  std::vector<double> adjusted(p.size());
-  double largest = 0.0;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return p[a].value < p[b].value; });
+  std::vector<PValue> adjusted(p.size());
+  PValue largest{0.0, 0.0};
   for (std::size_t i = 0; i < order.size(); ++i) {
-    largest = std::max(largest, std::min(1.0, static_cast<double>(p.size() - i) * p[order[i]]));
+    const auto factor = static_cast<double>(p.size() - i);
+    const PValue& own = p[order[i]];
+    if (factor * own.value > largest.value) {
+      largest = {std::min(1.0, factor * own.value), factor * own.standard_error};
+    }
     adjusted[order[i]] = largest;
   }
   return adjusted;
-}
-
-std::map<std::int64_t, double> category_probabilities(const std::vector<Counts>& pooled,
-                                                      const Counts& categories) {
-  std::map<std::int64_t, double> sums;
-  for (const auto& cell : categories) {
-    sums[cell.first] = 0.5;
-  }
-  for (const Counts& counts : pooled) {
-    for (const auto& cell : counts) {
-      sums.try_emplace(cell.first, 0.5).first->second += static_cast<double>(cell.second);
-    }
-  }
-  double sum = 0.0;
-  for (const auto& cell : sums) {
-    sum += cell.second;
-  }
-  for (auto& cell : sums) {
-    cell.second /= sum;
-  }
-  return sums;
-}
-
-double deviance(const Counts& counts, const std::map<std::int64_t, double>& probabilities) {
-  const double n = static_cast<double>(total(counts));
-  double sum = 0.0;
-  for (const auto& [category, count] : counts) {
-    if (count > 0) {
-      const double observed = static_cast<double>(count);
-      sum += observed * portable_math::log(observed / (n * probability(probabilities, category)));
-    }
-  }
-  return 2.0 * sum;
-}
-
-double log_multinomial(const Counts& counts, const std::map<std::int64_t, double>& probabilities) {
-  double sum = log_factorial(total(counts));
-  for (const auto& [category, count] : counts) {
-    if (count > 0) {
-      sum += static_cast<double>(count) * portable_math::log(probability(probabilities, category)) -
-             log_factorial(count);
-    }
-  }
-  return sum;
-}
-
-double two_sample_deviance(const Counts& first, const Counts& second) {
-  Counts both = first;
-  for (const auto& [category, count] : second) {
-    both[category] += count;
-  }
-  std::map<std::int64_t, double> common;
-  for (const auto& [category, count] : both) {
-    common[category] = static_cast<double>(count) / static_cast<double>(total(both));
-  }
-  return deviance(first, common) + deviance(second, common);
 }
 
 Equivalence median_ratio_equivalence(std::span<const double> first, std::span<const double> second,
@@ -173,7 +156,7 @@ Equivalence median_ratio_equivalence(std::span<const double> first, std::span<co
                             std::uint32_t arm) {
     for (std::size_t i = 0; i < source.size(); ++i) {
       const auto words = tmcmc::random_words(
-          {.seed = seed, .arm = arm}, {.purpose = tmcmc::Purpose::resampling, .stage = round, .row = i});
+          {.seed = seed, .arm = arm}, {.purpose = tmcmc::Purpose::statistics, .stage = round, .row = i});
       const auto pick =
           static_cast<std::size_t>(tmcmc::uniform_open(words[0]) * static_cast<double>(source.size()));
       target[i] = source[pick];
@@ -193,13 +176,33 @@ Equivalence median_ratio_equivalence(std::span<const double> first, std::span<co
 const std::string& name_of(Verdict verdict) {
   static const std::vector<std::string> names = {
       "reproduced",   "consistent with chance",   "not supported",
-      "contradicted", "internally contradictory", "cannot be tested"};
+      "contradicted", "internally contradictory", "cannot be tested",
+      "undecided"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Verdict judge_contrast(double p_printed, const Equivalence& replicated) {
+const std::string& name_of(Typicality typicality) {
+  static const std::vector<std::string> names = {"reproduced", "untypical", "not reproduced", "undecided"};
+  return names[static_cast<std::size_t>(typicality)];
+}
+
+Typicality judge_number(const PValue& p) {
+  const double error = monte_carlo_error_95(p);
+  if (p.value - error >= significance_level) {
+    return Typicality::reproduced;
+  }
+  if (p.value + error < strict_significance) {
+    return Typicality::not_reproduced;
+  }
+  return p.value + error < significance_level ? Typicality::untypical : Typicality::undecided;
+}
+
+Verdict judge_contrast(const PValue& printed, const Equivalence& replicated) {
   if (replicated.equivalent) {
-    return p_printed >= significance_level ? Verdict::consistent_with_chance : Verdict::not_supported;
+    if (std::fabs(printed.value - significance_level) <= monte_carlo_error_95(printed)) {
+      return Verdict::undecided;
+    }
+    return printed.value >= significance_level ? Verdict::consistent_with_chance : Verdict::not_supported;
   }
   if (replicated.different) {
     return replicated.ratio > 1.0 ? Verdict::reproduced : Verdict::contradicted;

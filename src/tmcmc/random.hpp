@@ -18,8 +18,8 @@ struct StreamKey {
   std::uint32_t run = 0;
 };
 
-/// What a draw is for; keeps the draws of one stage apart.
-enum class Purpose : std::uint32_t { prior, resampling, move, data };
+/// What a draw is for; keeps the draws of one stage apart. `statistics`: of runs that are done.
+enum class Purpose : std::uint32_t { prior, resampling, move, data, statistics };
 
 /// Place of a block of four random words within a run.
 struct DrawId {

@@ -62,4 +62,26 @@ sed "s/^TMCMC,0.08151/TMCMC,$median/" $table3 >median.csv
 sed "s/^TMCMC,0.08151/TMCMC,9.9/" $table3 >moved.csv
 check "the median is typical" awk -v p="$(compared median.csv)" 'BEGIN {exit !(p > 0.5)}'
 check "a moved number is not" awk -v p="$(compared moved.csv)" 'BEGIN {exit !(p < 0.05)}'
+
+# Few studies decide less, but another seed never says the opposite.
+"$bin/replicated_study" --runs 20 --samples 300 --studies 40 --seed 2 --quiet --output seed2.csv
+words() { "$bin/verdicts" --replicated "$1" --quiet --markdown-output words.md >/dev/null; awk -F ' [|] ' 'FNR > 2 {print $3 "|" $4}' words.md; }
+check "verdicts with another seed" awk -F '|' '
+  function other(a, b) { return a != b && a !~ /undecided/ && b !~ /undecided/ }
+  { if (other($1, $3) || other($2, $4)) bad = 1; n++ } END {exit bad || n != 9}' <(paste -d '|' <(words null.csv) <(words seed2.csv))
+
+# The printed iteration table: that of one of the studies is typical, and all runs in another category is not.
+mkdir -p typical moved
+cp data/published/*.csv typical && cp data/published/*.csv moved
+awk -F, '$1 == 0 {print $NF}' null.csv | awk '
+  { for (i = 1; i <= NF; i++) { split($i, cell, ":"); runs[NR, cell[1]] = cell[2]; seen[cell[1]] = 1 } }
+  END { print "iterations,TMCMC,TMCMC-II"; for (k in seen) print k "," runs[1, k] + 0 "," runs[2, k] + 0 }' >typical/table4_iteration_counts.csv
+printf 'iterations,TMCMC,TMCMC-II\n30,20,20\n' >moved/table4_iteration_counts.csv
+table4_verdict() {
+  "$bin/compare_published" --published "$1" --table1 "$1/table1_observations.csv" --table3 "$1/table3_pbox_area.csv" \
+    --table4 "$1/table4_iteration_counts.csv" --replicated null.csv --quiet --output - |
+    awk -F, '$1 == "Table 4" {print $NF}' | tr -d '"' | sort -u
+}
+check "a replicated iteration table" test "$(table4_verdict typical)" = reproduced
+check "a moved iteration table" test "$(table4_verdict moved)" = "not reproduced"
 finish

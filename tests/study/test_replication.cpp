@@ -95,10 +95,15 @@ TEST_CASE("a criterion that really differs is told apart by the same machinery",
     return studies;
   };
   const Counts printed = {{4, 8}};
-  const auto same = contrast_iterations(replicate(0.5), printed, printed, "TMCMC", "TMCMC-II", 0.02, 1);
+  const auto half_studies = replicate(0.5);
+  const auto quarter_studies = replicate(0.25);
+  const auto same =
+      contrast_iterations(half_studies, printed, printed, "TMCMC", "TMCMC-II", 1, {.tables = 1000});
   CHECK(same.replicated.equivalent);
   CHECK_FALSE(same.replicated.different);
-  const auto quarter = contrast_iterations(replicate(0.25), printed, printed, "TMCMC", "TMCMC-II", 0.02, 1);
+  const auto quarter =
+      contrast_iterations(quarter_studies, printed, printed, "TMCMC", "TMCMC-II", 1, {.tables = 1000});
   CHECK(quarter.replicated.different);
   CHECK(quarter.replicated.ratio < 0.9);
+  CHECK(null_of(quarter_studies, "TMCMC", "TMCMC-II", 1) == Null::own_studies);
 }
