@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
     const auto printed = read_printed_tables(table3, table4);
     auto options = run_options.study_options();
     const auto list = variants(samples);
-    const study::TableDraws tables{.tables = 50000, .resamples = 2};  // the standard error is not reported
+    const study::TableDraws tables{.tables = 20000, .resamples = 2};  // the standard error is not reported
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
       csv.emplace(
