@@ -76,14 +76,19 @@ int main(int argc, char** argv) {
       const auto result = study::calibrate(observations, reading, prior, arm, arm_index++, options,
                                            [&] { progress.advance(); });
       std::vector<study::RankHistogram> histograms;
-      std::vector<double> p;
+      std::vector<study::PValue> p;
       for (const auto& ranks : result.ranks) {
         histograms.push_back(study::rank_histogram(ranks, options));
         const auto& h = histograms.back();
-        p.insert(p.end(), {h.p_chi_squared, h.p_coverage_50, h.p_coverage_90});
+        for (const double value : {h.p_chi_squared, h.p_coverage_50, h.p_coverage_90}) {
+          p.push_back({value});
+        }
       }
       const auto adjusted = study::holm(p);
-      const double smallest = *std::min_element(adjusted.begin(), adjusted.end());
+      const double smallest =
+          std::min_element(adjusted.begin(), adjusted.end(), [](const auto& a, const auto& b) {
+            return a.value < b.value;
+          })->value;
       const char* verdict = smallest >= level ? "yes" : "no";
       for (std::size_t j = 0; j < histograms.size(); ++j) {
         const auto& h = histograms[j];
