@@ -9,70 +9,14 @@
 #include <cstring>
 
 #include "io/partial_files.hpp"
+#include "option_checks.hpp"
 
 namespace experiments {
 
 namespace {
 
-const std::vector<std::string> deviation_names = {"population", "sample"};
-const std::vector<std::string> counted_names = {"all", "feasible"};
-const std::vector<std::string> move_names = {"resample-move", "growing-chains"};
-const std::vector<std::string> centre_names = {"weighted-mean", "plain-mean"};
-const std::vector<std::string> boundary_names = {"reject", "redraw"};
 const std::vector<std::string> limit_names = {"grid", "supremum"};
 const std::vector<std::string> phase_names = {"discrete-bin", "fourier-coefficient"};
-
-/// A choice among names that stand in the order of an enum; the value is checked when it is parsed.
-void add_choice(CLI::App& app, const std::string& option, std::optional<std::string>& value,
-                const std::vector<std::string>& names, const std::string& description) {
-  app.add_option(option, value, description)
-      ->group("Reading, option by option")
-      ->type_name(CLI::detail::join(names, "|"))
-      ->check([names, option](const std::string& text) {
-        for (const auto& name : names) {
-          if (text == name) {
-            return std::string();
-          }
-        }
-        return fmt::format("{}: value '{}': expected {}", option, io::printable(text),
-                           CLI::detail::join(names, " or "));
-      });
-}
-
-template <class Enum>
-void choose(const std::optional<std::string>& value, const std::vector<std::string>& names, Enum& target) {
-  for (std::size_t i = 0; value && i < names.size(); ++i) {
-    if (names[i] == *value) {
-      target = static_cast<Enum>(i);
-    }
-  }
-}
-
-/// Number checks with a message of the one form that all errors have.
-CLI::Validator number(const std::string& option, const std::function<bool(double)>& accept,
-                      const std::string& expected) {
-  return CLI::Validator(
-      [option, accept, expected](const std::string& text) {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || !accept(value)) {
-          return fmt::format("{}: value '{}': expected {}", option, io::printable(text), expected);
-        }
-        return std::string();
-      },
-      "", option);
-}
-
-CLI::Validator positive(const std::string& option) {
-  return number(
-      option, [](double x) { return x > 0.0 && std::isfinite(x); }, "a positive number");
-}
-
-CLI::Validator count(const std::string& option) {
-  return number(
-      option, [](double x) { return x >= 1.0 && x <= 1e9 && x == std::floor(x); },
-      "a whole number, at least 1");
-}
 
 std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
@@ -180,54 +124,6 @@ study::Reading PhysicsOptions::reading() const {
   r.infeasible_log_likelihood = infeasible_log_likelihood.value_or(r.infeasible_log_likelihood);
   r.physics.driving_force_n = driving_force_n;
   return r;
-}
-
-void SamplerOptions::add_to(CLI::App& app) {
-  const std::string group = "Reading, option by option";
-  add_choice(app, "--deviation", deviation, deviation_names,
-             "Standard deviation in the CoV (Eq. 6): N or N-1");
-  add_choice(app, "--counted", counted, counted_names, "Samples that the criterion counts");
-  add_choice(app, "--move", move, move_names, "How a stage moves its samples");
-  add_choice(app, "--centre", centre, centre_names, "Mean in the proposal covariance (Eq. 5)");
-  add_choice(app, "--boundary", boundary, boundary_names, "Proposals outside the prior box");
-  app.add_option("--move-steps", move_steps, "Metropolis steps a chain and stage (resample-move)")
-      ->group(group)
-      ->check(count("--move-steps"));
-  app.add_option("--proposal-scale", proposal_scale, "gamma of Eq. 5")
-      ->group(group)
-      ->check(positive("--proposal-scale"));
-  app.add_option("--cov-target", cov_target, "Criterion of TMCMC (Eq. 6)")
-      ->group(group)
-      ->check(positive("--cov-target"));
-  app.add_option("--ess-fraction", ess_fraction, "Criterion of TMCMC-II as a fraction of N (Eq. 9)")
-      ->group(group)
-      ->check(number(
-          "--ess-fraction", [](double x) { return x > 0.0 && x <= 1.0; }, "a number in (0, 1]"));
-  app.add_option("--max-stages", max_stages, "Most stages a run may take")
-      ->group(group)
-      ->check(count("--max-stages"));
-  app.add_option("--minimum-step", minimum_step, "Smallest step of beta")
-      ->group(group)
-      ->check(number(
-          "--minimum-step", [](double x) { return x >= 0.0 && x < 1.0; }, "a number in [0, 1)"));
-  app.add_option("--samples", samples, "N, samples a run")
-      ->check(number(
-          "--samples", [](double x) { return x >= 2.0 && x <= 1e9 && x == std::floor(x); },
-          "a whole number, at least 2"));
-}
-
-void SamplerOptions::apply(study::Reading& reading) const {
-  tmcmc::Options& o = reading.sampler;
-  choose(deviation, deviation_names, o.criterion.deviation);
-  choose(counted, counted_names, o.criterion.counted);
-  choose(move, move_names, o.move);
-  choose(centre, centre_names, o.centre);
-  choose(boundary, boundary_names, o.boundary);
-  o.move_steps = move_steps.value_or(o.move_steps);
-  o.proposal_scale = proposal_scale.value_or(o.proposal_scale);
-  o.max_stages = max_stages.value_or(o.max_stages);
-  o.minimum_step = minimum_step.value_or(o.minimum_step);
-  o.samples = samples;
 }
 
 void RunOptions::add_seed_to(CLI::App& app) {

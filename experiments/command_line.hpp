@@ -76,16 +76,22 @@ struct PhysicsOptions {
   [[nodiscard]] study::Reading reading() const;
 };
 
-/// The sampler behind --reading, option by option.
+/// The sampler behind --reading, option by option; or the recommended one, with the same options.
 struct SamplerOptions {
   std::optional<std::string> deviation, counted, move, centre, boundary;
-  std::optional<long> move_steps, max_stages;
-  std::optional<double> proposal_scale, minimum_step;
+  std::optional<std::string> sampler, resampling, scale_rule, coordinates;
+  std::optional<long> samples, chains, move_steps, max_move_steps, max_stages, evaluation_budget;
+  std::optional<double> proposal_scale, minimum_step, mixing_correlation, target_acceptance,
+      independent_fraction;
+  std::optional<bool> random_subsets, cross_fit;
   double cov_target = 1.0;
   double ess_fraction = 0.5;
-  long samples = 1000;
+  bool diagnose = false;
 
   void add_to(CLI::App& app);
+  /// Replaces the sampler of the reading as the options say. Kind and target of the criterion, which belong to the two
+  /// samplers that are compared, are not touched (study::paper_arms).
+  /// \throws std::invalid_argument naming the option, for values that do not go together.
   void apply(study::Reading& reading) const;
 };
 

@@ -83,8 +83,9 @@ int main(int argc, char** argv) {
       };
       const auto first = tmcmc::run(problem, arms[0].options, key, both_rules);
       const auto second = tmcmc::run(problem, arms[1].options, key);
-      const double n = static_cast<double>(sampler.samples);
+      const double n = static_cast<double>(reading.sampler.samples);
       Largest path;
+      rows.resize(first.stages.size());  // the last one may have chosen a step that was not taken
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& row = rows[i];
         const double identity = n / (1.0 + row.cov * row.cov);
@@ -106,7 +107,7 @@ int main(int argc, char** argv) {
     if (csv) {
       csv->commit();
     }
-    program.report("{} stages of {} runs, N = {}\n", stages, options.runs, sampler.samples);
+    program.report("{} stages of {} runs, N = {}\n", stages, options.runs, reading.sampler.samples);
     program.report("largest relative difference\n");
     program.report("  of the steps that CoV = {} and N_eff = {} N choose from one population: {:.1e}\n",
                    sampler.cov_target, sampler.ess_fraction, step_difference.value);

@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
                   std::vector<std::string>{"target_fraction", "stages", "beta", "smallest_step", "stop"});
     }
     program.report("At most {} stages, N = {}\n{:>16} {:>8} {:>10} {:>14}  {}\n", reading.sampler.max_stages,
-                   sampler.samples, "N_eff target / N", "stages", "beta", "smallest step", "end");
+                   reading.sampler.samples, "N_eff target / N", "stages", "beta", "smallest step", "end");
     for (const double fraction : {0.5, 0.75, 0.9, 0.95, 0.99, 0.999, 1.0}) {
       const auto arm = study::paper_arms(reading, sampler.cov_target, fraction)[1];
       const auto result = tmcmc::run(problem, arm.options, {.seed = run_options.seed, .arm = 1});
@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
       }
       const char* stop = result.stop == tmcmc::StopReason::completed     ? "posterior reached"
                          : result.stop == tmcmc::StopReason::stage_limit ? "stage limit"
+                         : result.stop == tmcmc::StopReason::budget      ? "evaluation budget"
                                                                          : "step too small";
       program.report("{:>16} {:>8} {:>10.4g} {:>14.3g}  {}\n", fraction, result.stages.size(),
                      result.final.beta, smallest, stop);

@@ -46,6 +46,10 @@ std::string key(const study::Reading& reading, const std::vector<study::Arm>& ar
                         static_cast<int>(s.criterion.deviation), static_cast<int>(s.criterion.counted),
                         static_cast<int>(s.move), s.move_steps, s.proposal_scale, static_cast<int>(s.centre),
                         static_cast<int>(s.boundary), s.max_stages, s.minimum_step);
+    text += fmt::format(" {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(s.resampling), s.chains,
+                        s.mixing_correlation, s.max_move_steps, static_cast<int>(s.scale_rule),
+                        s.target_acceptance, static_cast<int>(s.coordinates), s.random_subsets,
+                        s.independent_fraction, s.cross_fit, s.evaluation_budget);
   }
   text +=
       fmt::format(" | {} {} {} {}", reading.physics.driving_force_n, static_cast<int>(reading.physics.limit),

@@ -4,11 +4,45 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
+#include <set>
+
 #include "inputs.hpp"
+#include "tmcmc/diagnostics.hpp"
 
 using namespace experiments;
 
 namespace {
+
+/// What the runs say of themselves (--diagnose).
+void report_diagnostics(const Program& program, const std::vector<study::Run>& runs) {
+  std::vector<double> evidence;
+  double squared_errors = 0.0;
+  double smallest_size = std::numeric_limits<double>::infinity();
+  std::map<std::string, int> warned;
+  for (const auto& run : runs) {
+    const auto& result = run.result;
+    evidence.push_back(result.evidence.log_evidence);
+    squared_errors += result.evidence.standard_error * result.evidence.standard_error;
+    smallest_size = std::min(smallest_size, result.diagnostics.effective_sample_size.minCoeff());
+    std::set<std::string> kinds;
+    for (const auto& warning : result.diagnostics.warnings) {
+      kinds.insert(tmcmc::describe(warning.kind));
+    }
+    for (const auto& kind : kinds) {
+      ++warned[kind];
+    }
+  }
+  const auto moments = study::moments(evidence);
+  program.report("  bridge log-evidence {:.3f} (sd over runs {:.3f}), standard error of a run {:.3f}\n",
+                 moments.mean, moments.standard_deviation,
+                 std::sqrt(squared_errors / static_cast<double>(runs.size())));
+  program.report("  smallest effective sample size of a parameter and run: {:.0f}\n", smallest_size);
+  program.report("  runs with warnings:");
+  for (const auto& [kind, count] : warned) {
+    program.report("  {}: {}", kind, count);
+  }
+  program.report("{}\n", warned.empty() ? "  none" : "");
+}
 
 void report_arm(const Program& program, const study::Arm& arm, const std::vector<study::Run>& runs,
                 int threads) {
@@ -41,6 +75,9 @@ void report_arm(const Program& program, const study::Arm& arm, const std::vector
     program.report("  {} in {} runs", iterations, count);
   }
   program.report("\n");
+  if (arm.options.diagnose) {
+    report_diagnostics(program, runs);
+  }
 }
 
 }  // namespace
@@ -81,6 +118,13 @@ int main(int argc, char** argv) {
         run_columns.push_back(moment + name);
       }
     }
+    if (sampler.diagnose) {
+      run_columns.insert(run_columns.end(), {"bridge_log_evidence", "log_evidence_standard_error"});
+      for (const auto& name : parameter_columns) {
+        run_columns.push_back("effective_sample_size_" + name);
+      }
+      run_columns.emplace_back("warnings");
+    }
     std::optional<io::CsvWriter> samples_csv, runs_csv, stages_csv;
     if (!program.output().empty()) {
       samples_csv.emplace(program.output(), sample_columns);
@@ -97,7 +141,7 @@ int main(int argc, char** argv) {
     }
 
     program.report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
-                   sampler.samples, options.seed, physics.reading_name, observations.size());
+                   reading.sampler.samples, options.seed, physics.reading_name, observations.size());
     io::Progress progress("sampling_study", arms.size() * static_cast<std::size_t>(options.runs),
                           !program.quiet());
     std::vector<std::vector<study::Run>> results;
@@ -112,9 +156,16 @@ int main(int argc, char** argv) {
           samples_csv->row(arms[a].name, i, points(row, 0), points(row, 1), points(row, 2), points(row, 3));
         }
         if (runs_csv) {
+          std::vector<double> diagnosed;
+          if (sampler.diagnose) {
+            const auto& d = run.result.diagnostics;
+            diagnosed = {run.result.evidence.log_evidence, run.result.evidence.standard_error};
+            diagnosed.insert(diagnosed.end(), d.effective_sample_size.begin(), d.effective_sample_size.end());
+            diagnosed.push_back(static_cast<double>(d.warnings.size()));
+          }
           runs_csv->row(arms[a].name, i, run.iterations(), run.result.final.log_evidence,
                         run.result.final.evaluations, tmcmc::as_span(run.mean),
-                        tmcmc::as_span(run.standard_deviation));
+                        tmcmc::as_span(run.standard_deviation), diagnosed);
         }
         for (const auto& s : run.result.stages) {
           if (stages_csv) {

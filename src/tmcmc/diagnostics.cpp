@@ -62,6 +62,22 @@ std::string of_stage(const char* what, const StageRecord& stage) {
 
 }  // namespace
 
+const char* describe(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::few_feasible:
+      return "few feasible draws";
+    case WarningKind::few_ancestors:
+      return "few ancestors";
+    case WarningKind::low_acceptance:
+      return "low acceptance";
+    case WarningKind::low_effective_size:
+      return "low effective sample size";
+    case WarningKind::uncertain_evidence:
+      return "uncertain evidence";
+  }
+  return "";
+}
+
 Diagnostics diagnose(const Result& result, const Options& options) {
   Diagnostics diagnostics;
   diagnostics.effective_sample_size = effective_sample_sizes(result.final.points, result.final.genealogy);

@@ -14,6 +14,9 @@ namespace tmcmc {
 /// \return  one entry a parameter; 0 for a constant parameter or a single chain
 [[nodiscard]] Eigen::VectorXd effective_sample_sizes(const Population& points, const Genealogy& genealogy);
 
+/// What a kind of warning is about, in a few words.
+[[nodiscard]] const char* describe(WarningKind kind);
+
 /// Effective sample sizes and warnings of a run. Reads final, stages, stop and evidence of the result.
 [[nodiscard]] Diagnostics diagnose(const Result& result, const Options& options);
 

@@ -11,7 +11,7 @@ template <class T>
 void require(bool condition, const char* field, T value, const char* expected) {
   if (!condition) {
     std::ostringstream message;
-    message << "options." << field << " = " << value << ": expected " << expected;
+    message << std::boolalpha << "options." << field << " = " << value << ": expected " << expected;
     throw std::invalid_argument(message.str());
   }
 }

@@ -21,8 +21,8 @@ enum class Centre {
                                                   int threads = 1);
 
 /// sum_i w_i theta_i / sum_i w_i, d.
-[[nodiscard]] Eigen::VectorXd weighted_mean(const Population& points, ConstDoubles weights,
-                                            double weight_sum, int threads = 1);
+[[nodiscard]] Eigen::VectorXd weighted_mean(const Population& points, ConstDoubles weights, double weight_sum,
+                                            int threads = 1);
 
 /// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a zero
 /// column. Plain loops, since the order of Eigen's sums depends on the instruction set.

@@ -8,22 +8,22 @@
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/evidence.hpp"
 #include "tmcmc/parallel.hpp"
+#include "tmcmc/stage_kernels.hpp"
 
 namespace tmcmc {
 
 namespace {
-
-constexpr double optimal_scale = 2.38;  // times 1 / sqrt(d): Roberts, Gelman and Gilks (1997)
 
 Index count_above(const Eigen::VectorXd& log_likelihood, double level) {
   return std::count_if(log_likelihood.begin(), log_likelihood.end(),
                        [level](double value) { return value > level; });
 }
 
-Index count_distinct(std::span<const Index> sorted) {
-  Index distinct = sorted.empty() ? 0 : 1;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    distinct += sorted[i] != sorted[i - 1] ? 1 : 0;
+/// Equal values have to stand side by side.
+Index count_distinct(std::span<const Index> grouped) {
+  Index distinct = grouped.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < grouped.size(); ++i) {
+    distinct += grouped[i] != grouped[i - 1] ? 1 : 0;
   }
   return distinct;
 }
@@ -67,80 +67,24 @@ double linked_scale(const MoveCounts& counts, double scale) {
                           : scale;
 }
 
-double initial_scale(const Options& options) {
-  switch (options.scale_rule) {
-    case ScaleRule::dimension:
-    case ScaleRule::target_acceptance:
-      return optimal_scale;
-    case ScaleRule::fixed:  // the factor of the covariance holds the scale
-    case ScaleRule::acceptance_linked:
-      break;
-  }
-  return 1.0;
-}
-
-MetropolisKernel kernel_of(const Problem& problem, const Options& options, const State& from,
-                           ConstDoubles weights, double weight_sum) {
-  MetropolisKernel kernel;
-  const bool fixed = options.scale_rule == ScaleRule::fixed;
-  const double in_factor = fixed ? options.proposal_scale : 1.0;
-  Population unbounded;
-  const bool natural = options.coordinates == Coordinates::natural;
-  if (!natural) {
-    unbounded = to_unbounded(from.points, problem.prior);
-  }
-  const Population& points = natural ? from.points : unbounded;
-  kernel.factor = cholesky_factor(
-      proposal_covariance(points, weights, weight_sum, in_factor, options.centre, options.threads));
-  kernel.factor_unit = 1.0 / in_factor;
-  if (options.independent_fraction > 0.0) {
-    kernel.centre = weighted_mean(points, weights, weight_sum, options.threads);
-  }
-  kernel.scale = fixed || from.proposal_scale == 0.0 ? initial_scale(options) : from.proposal_scale;
-  kernel.divide_by_sqrt_size =
-      options.scale_rule == ScaleRule::dimension || options.scale_rule == ScaleRule::target_acceptance;
-  kernel.independent_fraction = options.independent_fraction;
-  kernel.random_subsets = options.random_subsets;
-  kernel.coordinates = options.coordinates;
-  kernel.boundary = options.boundary;
-  kernel.max_redraws = options.max_redraws;
-  kernel.stage = static_cast<std::uint32_t>(from.stage + 1);
-  return kernel;
-}
-
-/// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that was fitted to the odd
-/// chains, and the other way round; unless one half of the weights is too few for its covariance.
-StageKernels kernels_of(const Problem& problem, const Options& options, const State& from,
-                        std::vector<double>& weights, double weight_sum, std::span<const Index> ancestors) {
-  StageKernels stage;
-  if (options.cross_fit) {
-    const Index chains = from.genealogy.chains;
-    std::vector<double> half(weights.size());
-    for (Index parity = 0; parity < 2; ++parity) {
-      double sum = 0.0;
-      double squares = 0.0;
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        half[i] = static_cast<Index>(i) % chains % 2 == parity ? 0.0 : weights[i];
-        sum += half[i];
-        squares += half[i] * half[i];
-      }
-      if (sum * sum <= 4.0 * static_cast<double>(problem.prior.dimension()) * squares) {
-        stage = {};
-        break;
-      }
-      stage.kernels.push_back(kernel_of(problem, options, from, half, sum));
-      auto& rows = stage.rows.emplace_back();
-      for (std::size_t c = 0; c < ancestors.size(); ++c) {
-        if (ancestors[c] % chains % 2 == parity) {
-          rows.push_back(static_cast<Index>(c));
-        }
-      }
+/// Rows that the chains of the next stage start from. The rows are resampled chain by chain, as they descend from one
+/// another: in the order of the steps, systematic resampling would step through the rows at the distance of a multiple of
+/// the number of chains and find the same few chains again and again.
+void draw_starts(const Options& options, const StreamKey& key, const State& from, Workspace& work) {
+  const Index chains = from.genealogy.chains;
+  const Index steps = from.points.rows() / chains;
+  work.ancestors.resize(static_cast<std::size_t>(chains_of(options)));
+  work.by_chain.clear();
+  for (Index c = 0; c < chains; ++c) {
+    for (Index k = 0; k < steps; ++k) {
+      work.by_chain.push_back(work.weights[static_cast<std::size_t>(c + k * chains)]);
     }
   }
-  if (stage.kernels.empty()) {
-    stage.kernels.push_back(kernel_of(problem, options, from, weights, weight_sum));
+  resample(options.resampling, work.by_chain, key, static_cast<std::uint32_t>(from.stage + 1), work.ancestors,
+           work.resampling, options.threads);
+  for (Index& row : work.ancestors) {
+    row = row / steps + row % steps * chains;
   }
-  return stage;
 }
 
 void record_descent(const Options& options, std::span<const Index> ancestors, const State& from, State& to) {
@@ -207,11 +151,9 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
     std::fill(work.weights.begin(), work.weights.end(), 1.0);
   }
   record.log_evidence_increment = sums.log_mean;
-  auto& ancestors = work.ancestors;
-  ancestors.resize(static_cast<std::size_t>(chains_of(options)));
-  resample(options.resampling, work.weights, key, static_cast<std::uint32_t>(record.stage), ancestors,
-           work.resampling, options.threads);
-  StageKernels kernels = kernels_of(problem, options, from, work.weights, sums.sum, ancestors);
+  const std::vector<Index>& ancestors = work.ancestors;
+  draw_starts(options, key, from, work);
+  StageKernels kernels = stage_kernels(problem.prior, options, from, work.weights, sums.sum, ancestors);
   for (MetropolisKernel& kernel : kernels.kernels) {
     kernel.beta = record.beta;
   }

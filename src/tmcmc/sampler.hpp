@@ -23,6 +23,7 @@ struct Workspace {
 
   Mover mover;
   std::vector<double> weights;
+  std::vector<double> by_chain;  ///< the weights in the order of the chains
   std::vector<Index> ancestors;
   ResamplingWorkspace resampling;
   StageMoveWorkspace moves;

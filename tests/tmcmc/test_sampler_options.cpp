@@ -81,6 +81,19 @@ TEST_CASE("so do waste-free chains, with proposals of every kind", "[tmcmc][samp
   }
 }
 
+TEST_CASE("so do cross-fitted proposals, whatever the kind of move", "[tmcmc][sampler]") {
+  for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
+    CAPTURE(static_cast<int>(move));
+    Options options = good_options(2);
+    options.move = move;
+    options.samples = move == MoveKind::waste_free ? 2000 : 500;
+    options.cross_fit = true;
+    options.independent_fraction = 0.3;
+    options.scale_rule = ScaleRule::target_acceptance;
+    check_gamma_normal(replicate(gamma_normal(), options, 67), 500);
+  }
+}
+
 TEST_CASE("so do the recommended options, each time within their budget", "[tmcmc][sampler]") {
   const Options options = tmcmc::recommended_options(13000);
   const auto results = replicate(gamma_normal(), options, 64);
@@ -88,6 +101,21 @@ TEST_CASE("so do the recommended options, each time within their budget", "[tmcm
   for (const Result& result : results) {
     CHECK(result.final.evaluations <= 13000);
     CHECK(result.diagnostics.warnings.empty());
+  }
+}
+
+TEST_CASE("independent proposals follow the population itself, whatever the scale of the random walks",
+          "[tmcmc][sampler]") {
+  const auto gaussian = replicates::problem_of(
+      [](const auto& x) { return -0.5 * (x[0] * x[0] + (x[1] - x[0]) * (x[1] - x[0])); },
+      Eigen::Vector2d::Constant(-20.0), Eigen::Vector2d::Constant(20.0));
+  for (const ScaleRule rule : {ScaleRule::fixed, ScaleRule::dimension}) {
+    Options options = good_options(2);
+    options.samples = 2000;
+    options.proposal_scale = 0.2;
+    options.scale_rule = rule;
+    options.independent_fraction = 1.0;
+    CHECK(tmcmc::run(gaussian, options, {.seed = 68}).stages.back().acceptance_rate > 0.85);
   }
 }
 
@@ -191,6 +219,12 @@ TEST_CASE("new options out of range, and options that do not go together, are re
         },
         "boundary = redraw", "reject");
   };
+  refused(
+      [](Options& o) {
+        o.cross_fit = true;
+        o.move = MoveKind::growing_chains;
+      },
+      "cross_fit = true", "false with growing chains");
   redrawn([](Options& o) { o.coordinates = Coordinates::unbounded; });
   redrawn([](Options& o) { o.random_subsets = true; });
   redrawn([](Options& o) { o.independent_fraction = 0.1; });

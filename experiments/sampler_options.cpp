@@ -1,0 +1,152 @@
+#include <stdexcept>
+
+#include "command_line.hpp"
+#include "option_checks.hpp"
+
+namespace experiments {
+
+namespace {
+
+const std::vector<std::string> deviation_names = {"population", "sample"};
+const std::vector<std::string> counted_names = {"all", "feasible"};
+const std::vector<std::string> move_names = {"resample-move", "growing-chains", "waste-free"};
+const std::vector<std::string> centre_names = {"weighted-mean", "plain-mean"};
+const std::vector<std::string> boundary_names = {"reject", "redraw"};
+const std::vector<std::string> sampler_names = {"published", "recommended"};
+const std::vector<std::string> resampling_names = {"multinomial", "residual", "stratified", "systematic"};
+const std::vector<std::string> scale_rule_names = {"fixed", "dimension", "target-acceptance",
+                                                   "acceptance-linked"};
+const std::vector<std::string> coordinates_names = {"natural", "unbounded"};
+
+constexpr long recommended_evaluations = 31000;  // those of the published setting
+
+CLI::Validator fraction(const std::string& option) {
+  return number(
+      option, [](double x) { return x >= 0.0 && x < 1.0; }, "a number in [0, 1)");
+}
+
+template <class T>
+void replace(const std::optional<T>& value, auto& target) {
+  if (value) {
+    target = *value;
+  }
+}
+
+/// An option that would change nothing is a mistake.
+template <class T>
+void require_effect(const char* option, const std::optional<T>& value, bool has_effect, const char* with) {
+  if (value && !has_effect) {
+    throw std::invalid_argument(fmt::format("{}: value '{}': expected only with {}", option, *value, with));
+  }
+}
+
+/// "options.evaluation_budget = 7: expected ..." about the option that sets the field.
+std::string about_option(std::string message) {
+  constexpr std::string_view prefix = "options.";
+  if (message.rfind(prefix, 0) == 0) {
+    message.replace(0, prefix.size(), "--");
+    for (std::size_t i = 0; i < message.size() && message[i] != ' '; ++i) {
+      message[i] = message[i] == '_' ? '-' : message[i];
+    }
+  }
+  return message;
+}
+
+}  // namespace
+
+void SamplerOptions::add_to(CLI::App& app) {
+  const std::string of_reading = "Reading, option by option";
+  const std::string group = "Sampler beyond the paper";
+  add_choice(app, "--deviation", deviation, deviation_names,
+             "Standard deviation in the CoV (Eq. 6): N or N-1");
+  add_choice(app, "--counted", counted, counted_names, "Samples that the criterion counts");
+  add_choice(app, "--move", move, move_names, "How a stage moves its samples");
+  add_choice(app, "--centre", centre, centre_names, "Mean in the proposal covariance (Eq. 5)");
+  add_choice(app, "--boundary", boundary, boundary_names, "Proposals outside the prior box");
+  const auto add = [&](const char* name, auto& value, const CLI::Validator& check,
+                       const std::string& in_group, const std::string& description) {
+    app.add_option(name, value, description)->group(in_group)->check(check);
+  };
+  add("--move-steps", move_steps, count("--move-steps"), of_reading,
+      "Metropolis steps a chain and stage (resample-move)");
+  add("--proposal-scale", proposal_scale, positive("--proposal-scale"), of_reading, "gamma of Eq. 5");
+  add("--cov-target", cov_target, positive("--cov-target"), of_reading, "Criterion of TMCMC (Eq. 6)");
+  add("--ess-fraction", ess_fraction,
+      number(
+          "--ess-fraction", [](double x) { return x > 0.0 && x <= 1.0; }, "a number in (0, 1]"),
+      of_reading, "Criterion of TMCMC-II as a fraction of N (Eq. 9)");
+  add("--max-stages", max_stages, count("--max-stages"), of_reading, "Most stages a run may take");
+  add("--minimum-step", minimum_step, fraction("--minimum-step"), of_reading, "Smallest step of beta");
+  app.add_option("--samples", samples, "N, samples a run (1000; recommended: what the budget gives)")
+      ->check(count("--samples", 2));
+
+  add_choice(app, "--sampler", sampler, sampler_names,
+             "Sampler of the reading, or the recommended one; both criteria stay", group);
+  add_choice(app, "--resampling", resampling, resampling_names, "Choice of the starts", group);
+  add("--chains", chains, count("--chains"), group, "M, chains of waste-free");
+  add("--mixing-correlation", mixing_correlation, fraction("--mixing-correlation"), group,
+      "Go on moving until states and starts correlate by this at most (resample-move)");
+  add("--max-move-steps", max_move_steps, count("--max-move-steps"), group,
+      "Most steps with --mixing-correlation");
+  add_choice(app, "--scale-rule", scale_rule, scale_rule_names, "Scale of the random walks", group);
+  add("--target-acceptance", target_acceptance,
+      number(
+          "--target-acceptance", [](double x) { return x > 0.0 && x < 1.0; }, "a number between 0 and 1"),
+      group, "Of the random walks, with --scale-rule target-acceptance");
+  add_choice(app, "--coordinates", coordinates, coordinates_names, "Of the proposals: parameters or logits",
+             group);
+  app.add_flag("--random-subsets,!--no-random-subsets", random_subsets, "Change random sets of coordinates")
+      ->group(group);
+  add("--independent-fraction", independent_fraction,
+      number(
+          "--independent-fraction", [](double x) { return x >= 0.0 && x <= 1.0; }, "a number in [0, 1]"),
+      group, "Share of independent proposals");
+  app.add_flag("--cross-fit,!--no-cross-fit", cross_fit, "Fit the proposals of half the chains to the others")
+      ->group(group);
+  add("--evaluation-budget", evaluation_budget, count("--evaluation-budget"), group,
+      fmt::format("Log-likelihoods a run (recommended: {})", recommended_evaluations));
+  app.add_flag("--diagnose", diagnose, "Error of the log-evidence, effective sample sizes, warnings")
+      ->group(group);
+}
+
+void SamplerOptions::apply(study::Reading& reading) const {
+  tmcmc::Options& o = reading.sampler;
+  try {
+    if (sampler == "recommended") {
+      o = tmcmc::recommended_options(evaluation_budget.value_or(recommended_evaluations));
+    }
+    o.diagnose = diagnose;
+    choose(deviation, deviation_names, o.criterion.deviation);
+    choose(counted, counted_names, o.criterion.counted);
+    choose(resampling, resampling_names, o.resampling);
+    choose(move, move_names, o.move);
+    choose(centre, centre_names, o.centre);
+    choose(boundary, boundary_names, o.boundary);
+    choose(scale_rule, scale_rule_names, o.scale_rule);
+    choose(coordinates, coordinates_names, o.coordinates);
+    replace(samples, o.samples);
+    replace(chains, o.chains);
+    replace(move_steps, o.move_steps);
+    replace(mixing_correlation, o.mixing_correlation);
+    replace(max_move_steps, o.max_move_steps);
+    replace(proposal_scale, o.proposal_scale);
+    replace(target_acceptance, o.target_acceptance);
+    replace(random_subsets, o.random_subsets);
+    replace(independent_fraction, o.independent_fraction);
+    replace(cross_fit, o.cross_fit);
+    replace(evaluation_budget, o.evaluation_budget);
+    replace(max_stages, o.max_stages);
+    replace(minimum_step, o.minimum_step);
+    o.validate();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(about_option(error.what()));
+  }
+  require_effect("--chains", chains, o.move == tmcmc::MoveKind::waste_free, "--move waste-free");
+  require_effect("--max-move-steps", max_move_steps, o.mixing_correlation > 0.0, "--mixing-correlation");
+  require_effect("--target-acceptance", target_acceptance,
+                 o.scale_rule == tmcmc::ScaleRule::target_acceptance, "--scale-rule target-acceptance");
+  require_effect("--proposal-scale", proposal_scale, o.scale_rule == tmcmc::ScaleRule::fixed,
+                 "--scale-rule fixed");
+}
+
+}  // namespace experiments
