@@ -79,11 +79,10 @@ struct PhysicsOptions {
 /// The sampler behind --reading, option by option; or the recommended one, with the same options.
 struct SamplerOptions {
   std::optional<std::string> deviation, counted, move, centre, boundary;
-  std::optional<std::string> sampler, resampling, scale_rule, coordinates;
+  std::optional<std::string> sampler, resampling, scale_rule, coordinates, random_subsets, cross_fit;
   std::optional<long> samples, chains, move_steps, max_move_steps, max_stages, evaluation_budget;
   std::optional<double> proposal_scale, minimum_step, mixing_correlation, target_acceptance,
       independent_fraction;
-  std::optional<bool> random_subsets, cross_fit;
   double cov_target = 1.0;
   double ess_fraction = 0.5;
   bool diagnose = false;

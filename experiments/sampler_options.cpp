@@ -1,3 +1,4 @@
+#include <cctype>
 #include <stdexcept>
 
 #include "command_line.hpp"
@@ -16,6 +17,7 @@ const std::vector<std::string> sampler_names = {"published", "recommended"};
 const std::vector<std::string> resampling_names = {"multinomial", "residual", "stratified", "systematic"};
 const std::vector<std::string> scale_rule_names = {"fixed", "dimension", "target-acceptance",
                                                    "acceptance-linked"};
+const std::vector<std::string> no_yes = {"no", "yes"};
 const std::vector<std::string> coordinates_names = {"natural", "unbounded"};
 
 constexpr long recommended_evaluations = 31000;  // those of the published setting
@@ -40,13 +42,15 @@ void require_effect(const char* option, const std::optional<T>& value, bool has_
   }
 }
 
-/// "options.evaluation_budget = 7: expected ..." about the option that sets the field.
-std::string about_option(std::string message) {
-  constexpr std::string_view prefix = "options.";
-  if (message.rfind(prefix, 0) == 0) {
-    message.replace(0, prefix.size(), "--");
-    for (std::size_t i = 0; i < message.size() && message[i] != ' '; ++i) {
-      message[i] = message[i] == '_' ? '-' : message[i];
+/// A message about fields of tmcmc::Options, as one about the options that set them: options.move_steps is --move-steps.
+std::string about_options(std::string message) {
+  const std::string prefix = "options.";
+  for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix, at)) {
+    message.replace(at, prefix.size(), "--");
+    for (at += 2; at < message.size() &&
+                  (std::islower(static_cast<unsigned char>(message[at])) != 0 || message[at] == '_');
+         ++at) {
+      message[at] = message[at] == '_' ? '-' : message[at];
     }
   }
   return message;
@@ -95,14 +99,13 @@ void SamplerOptions::add_to(CLI::App& app) {
       group, "Of the random walks, with --scale-rule target-acceptance");
   add_choice(app, "--coordinates", coordinates, coordinates_names, "Of the proposals: parameters or logits",
              group);
-  app.add_flag("--random-subsets,!--no-random-subsets", random_subsets, "Change random sets of coordinates")
-      ->group(group);
+  add_choice(app, "--random-subsets", random_subsets, no_yes, "Change random sets of coordinates", group);
   add("--independent-fraction", independent_fraction,
       number(
           "--independent-fraction", [](double x) { return x >= 0.0 && x <= 1.0; }, "a number in [0, 1]"),
       group, "Share of independent proposals");
-  app.add_flag("--cross-fit,!--no-cross-fit", cross_fit, "Fit the proposals of half the chains to the others")
-      ->group(group);
+  add_choice(app, "--cross-fit", cross_fit, no_yes, "Fit the proposals of half the chains to the others",
+             group);
   add("--evaluation-budget", evaluation_budget, count("--evaluation-budget"), group,
       fmt::format("Log-likelihoods a run (recommended: {})", recommended_evaluations));
   app.add_flag("--diagnose", diagnose, "Error of the log-evidence, effective sample sizes, warnings")
@@ -124,6 +127,8 @@ void SamplerOptions::apply(study::Reading& reading) const {
     choose(boundary, boundary_names, o.boundary);
     choose(scale_rule, scale_rule_names, o.scale_rule);
     choose(coordinates, coordinates_names, o.coordinates);
+    choose(random_subsets, no_yes, o.random_subsets);
+    choose(cross_fit, no_yes, o.cross_fit);
     replace(samples, o.samples);
     replace(chains, o.chains);
     replace(move_steps, o.move_steps);
@@ -131,15 +136,13 @@ void SamplerOptions::apply(study::Reading& reading) const {
     replace(max_move_steps, o.max_move_steps);
     replace(proposal_scale, o.proposal_scale);
     replace(target_acceptance, o.target_acceptance);
-    replace(random_subsets, o.random_subsets);
     replace(independent_fraction, o.independent_fraction);
-    replace(cross_fit, o.cross_fit);
     replace(evaluation_budget, o.evaluation_budget);
     replace(max_stages, o.max_stages);
     replace(minimum_step, o.minimum_step);
     o.validate();
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(about_option(error.what()));
+    throw std::invalid_argument(about_options(error.what()));
   }
   require_effect("--chains", chains, o.move == tmcmc::MoveKind::waste_free, "--move waste-free");
   require_effect("--max-move-steps", max_move_steps, o.mixing_correlation > 0.0, "--mixing-correlation");
