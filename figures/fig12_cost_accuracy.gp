@@ -1,7 +1,7 @@
 # What makes the p-boxes smaller, and at what cost: each point is a setting of the sampler, over 4 studies of 50 runs.
 # One family of settings varies one thing from the published setting; the moves are then improved one by one.
 width = 17.4
-height = 15.6
+height = 12.4
 load 'figures/style.gp'
 
 settings = data.'/cost_accuracy.csv'
@@ -57,7 +57,7 @@ do for [panel = 1:3] {
     set yrange [0.12:10]
     set ytics (0.2, 0.5, 1, 2, 5, 10) format '%g'
   }
-  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 Left reverse samplen 2 width 0 spacing 1.35 } else { unset key }
+  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 maxrows 10 Left reverse samplen 2 width 0 spacing 1.05 font ',7.5' } else { unset key }
   show_floor = panel < 3 ? 1 : NaN
   plot floor_areas using (3000):(strcol('probability') eq '0.5' && panel < 3 ? column(name) : NaN):(1097000):(0) \
          with vectors nohead ls EXACT dt (8, 4), \
