@@ -44,7 +44,9 @@ int main(int argc, char** argv) {
       "50 dimensions, two normals, a banana, a posterior in a corner of its box, a two-storey frame.");
   RunOptions run_options;
   run_options.runs = 20;
+  std::string only;
   program.add_output("CSV with one row a problem: errors of the log-evidence, distances, masses of modes");
+  program.app().add_option("--problem", only, "Only the problem of this name, for example 'banana'");
   run_options.add_to(program.app());
 
   return program.run(argc, argv, [&] {
@@ -56,10 +58,17 @@ int main(int argc, char** argv) {
     program.report("{:<24} {:>8} {:>7} {:>9} {:>8} {:>8} {:>8} {:>9} {:>16}\n", "", "evals", "stages", "ln Z",
                    "error", "rms", "s.e.", "distance", "mass of mode 1");
     const auto problems = study::benchmark_problems();
+    const auto chosen = [&](const auto& p) { return only.empty() || p.name == only; };
+    if (std::none_of(problems.begin(), problems.end(), chosen)) {
+      throw std::invalid_argument(fmt::format("--problem: value '{}': expected the name of a problem", only));
+    }
     io::Progress progress("benchmark_problems", problems.size() * static_cast<std::size_t>(run_options.runs),
                           !program.quiet());
     for (std::uint32_t index = 0; index < problems.size(); ++index) {
       const auto& p = problems[index];
+      if (!chosen(p)) {
+        continue;
+      }
       const auto runs = study::run_arm(p.problem, {p.name, p.options}, index, run_options.study_options(),
                                        [&] { progress.advance(); });
       std::vector<double> errors, standard_errors, masses;

@@ -27,7 +27,8 @@ for e in $experiments; do
   check "$e --version" grep -qE '^[a-z0-9_]+ [0-9]+\.[0-9]+\.[0-9]+$' <("$bin/$e" --version)
   options=""
   [ "$e" = evaluate_model ] && options="--points points.csv"
-  [ "$e" = cost_accuracy ] && options="--family moves --studies 1"
+  [ "$e" = benchmark_problems ] && options="--problem banana"
+  [ "$e" = cost_accuracy ] && options="--family resampling --studies 1"
   case $("$bin/$e" --help) in *"--runs "*) options="$options --runs 3" ;; esac
   case $("$bin/$e" --help) in *"--samples "*) options="$options --samples 200" ;; esac
   [ "$e" = report_values ] && options="--values values.csv --tables tables.csv"
