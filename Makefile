@@ -49,9 +49,9 @@ deps:
 
 # ---------------------------------------------------------------- executables
 
-EXPERIMENTS := $(filter-out command_line inputs,$(patsubst experiments/%.cpp,%,$(wildcard experiments/*.cpp)))
+EXPERIMENTS := $(patsubst experiments/%.cpp,%,$(wildcard experiments/*.cpp))
 LIBRARY_SOURCES := $(shell find src -name '*.[ch]pp' -o -name CMakeLists.txt) CMakeLists.txt CMakePresets.json \
-  experiments/CMakeLists.txt $(wildcard experiments/*.hpp) experiments/command_line.cpp experiments/inputs.cpp
+  experiments/CMakeLists.txt $(wildcard experiments/support/*)
 EXECUTABLES := $(addprefix $(BIN)/,$(EXPERIMENTS))
 
 build: $(EXECUTABLES)

@@ -2,7 +2,7 @@
 # Every executable: --help, --version, --quiet, --output; same bytes for every number of threads.
 source "$(dirname "$0")/support.sh"
 
-experiments=$(cd "$source/experiments" && ls ./*.cpp | sed 's|^\./||; s|\.cpp$||' | grep -v -e '^command_line$' -e '^inputs$' -e '_options$' -e '^option_checks$')
+experiments=$(cd "$source/experiments" && ls ./*.cpp | sed 's|^\./||; s|\.cpp$||')
 small="--runs 3 --samples 200"
 "$bin/sampling_study" $small --quiet --output samples.csv --runs-output runs.csv --stages-output stages.csv
 mkdir -p data/generated
