@@ -5,6 +5,7 @@
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 
 #include "inputs.hpp"
+#include "tmcmc/diagnostics.hpp"
 
 using namespace experiments;
 
@@ -43,10 +44,7 @@ int main(int argc, char** argv) {
       for (const auto& stage : result.stages) {
         smallest = std::min(smallest, stage.step);
       }
-      const char* stop = result.stop == tmcmc::StopReason::completed     ? "posterior reached"
-                         : result.stop == tmcmc::StopReason::stage_limit ? "stage limit"
-                         : result.stop == tmcmc::StopReason::budget      ? "evaluation budget"
-                                                                         : "step too small";
+      const char* stop = tmcmc::describe(result.stop);
       program.report("{:>16} {:>8} {:>10.4g} {:>14.3g}  {}\n", fraction, result.stages.size(),
                      result.final.beta, smallest, stop);
       if (csv) {

@@ -5,6 +5,7 @@
 
 #include "pbox/pbox.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/diagnostics.hpp"
 #include "tmcmc/parallel.hpp"
 
 namespace study {
@@ -13,20 +14,6 @@ namespace {
 
 std::string name_run(const Arm& arm, tmcmc::Index index) {
   return arm.name + ", run " + std::to_string(index) + ": ";
-}
-
-const char* reason(tmcmc::StopReason stop) {
-  switch (stop) {
-    case tmcmc::StopReason::stage_limit:
-      return " (max_stages)";
-    case tmcmc::StopReason::step_too_small:
-      return ", since the next step is below minimum_step";
-    case tmcmc::StopReason::budget:
-      return ", since the next would need more than evaluation_budget";
-    case tmcmc::StopReason::completed:
-      break;
-  }
-  return "";
 }
 
 }  // namespace
@@ -68,8 +55,8 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
           run.result = tmcmc::run(problem, arm.options, key);
           if (run.result.stop != tmcmc::StopReason::completed) {
             throw tmcmc::SamplingError("ended at beta = " + std::to_string(run.result.final.beta) +
-                                       " after " + std::to_string(run.iterations()) + " stages" +
-                                       reason(run.result.stop));
+                                       " after " + std::to_string(run.iterations()) +
+                                       " stages: " + tmcmc::describe(run.result.stop));
           }
         } catch (const tmcmc::InfeasiblePriorError& error) {
           throw tmcmc::InfeasiblePriorError(name_run(arm, index) + error.what());

@@ -62,8 +62,24 @@ std::string of_stage(const char* what, const StageRecord& stage) {
 
 }  // namespace
 
+const char* describe(StopReason stop) {
+  switch (stop) {
+    case StopReason::completed:
+      return "posterior reached";
+    case StopReason::stage_limit:
+      return "max_stages reached";
+    case StopReason::step_too_small:
+      return "next step below minimum_step";
+    case StopReason::budget:
+      return "next stage beyond evaluation_budget";
+  }
+  return "";
+}
+
 const char* describe(WarningKind kind) {
   switch (kind) {
+    case WarningKind::not_completed:
+      return "not completed";
     case WarningKind::few_feasible:
       return "few feasible draws";
     case WarningKind::few_ancestors:
@@ -74,6 +90,8 @@ const char* describe(WarningKind kind) {
       return "low effective sample size";
     case WarningKind::uncertain_evidence:
       return "uncertain evidence";
+    case WarningKind::few_for_covariance:
+      return "few samples for the covariance";
   }
   return "";
 }
@@ -83,6 +101,11 @@ Diagnostics diagnose(const Result& result, const Options& options) {
   diagnostics.effective_sample_size = effective_sample_sizes(result.final.points, result.final.genealogy);
   Warnings warnings;
   const double n = static_cast<double>(options.samples);
+  if (result.stop != StopReason::completed) {
+    warnings.below(result.final.beta, 1.0, WarningKind::not_completed,
+                   std::string("the run ended early (") + describe(result.stop) + "), and beta",
+                   "these are samples of a tempered posterior");
+  }
   if (!result.stages.empty()) {
     warnings.below(static_cast<double>(result.stages.front().feasible), std::max(0.01 * n, 20.0),
                    WarningKind::few_feasible, "the number of feasible draws from the prior",
@@ -103,6 +126,14 @@ Diagnostics diagnose(const Result& result, const Options& options) {
                    of_stage("the acceptance rate", lowest), "take a smaller proposal scale or more steps");
     warnings.above(result.evidence.standard_error, 1.0, WarningKind::uncertain_evidence,
                    "the standard error of the log-evidence", "take more samples or longer chains");
+    const auto effective = [](const StageRecord& a, const StageRecord& b) {
+      return a.effective_sample_size < b.effective_sample_size;
+    };
+    const StageRecord& least = *std::min_element(result.stages.begin(), result.stages.end(), effective);
+    const auto d = static_cast<double>(result.final.points.cols());
+    warnings.below(least.effective_sample_size / (0.5 * d * (d + 1.0)), 10.0, WarningKind::few_for_covariance,
+                   of_stage("the effective sample size per entry of the proposal covariance", least),
+                   "take more samples");
   }
   for (Index j = 0; j < diagnostics.effective_sample_size.size(); ++j) {
     warnings.below(diagnostics.effective_sample_size[j], 50.0, WarningKind::low_effective_size,

@@ -17,6 +17,9 @@ namespace tmcmc {
 /// What a kind of warning is about, in a few words.
 [[nodiscard]] const char* describe(WarningKind kind);
 
+/// How a run ended, in a few words that name the option behind it.
+[[nodiscard]] const char* describe(StopReason stop);
+
 /// Effective sample sizes and warnings of a run. Reads final, stages, stop and evidence of the result.
 [[nodiscard]] Diagnostics diagnose(const Result& result, const Options& options);
 

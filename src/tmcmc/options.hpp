@@ -89,7 +89,8 @@ struct Options {
 /// of unbounded coordinates. Found by experiments/cost_accuracy on the friction benchmark and checked by
 /// experiments/calibration and benchmark_problems. Posteriors of several separate modes want more chains (Options::chains):
 /// each mode keeps only the mass of the chains that started in it.
-/// \param evaluations  budget of log-likelihoods, at least 500; a 13th of it is N, and the last stage gets what is left
+/// \param evaluations  budget of log-likelihoods, at least 500; a 13th of it is N, and the last stage gets what is left. A problem of more than 12
+///                     stages ends with StopReason::budget: take a multiple of Options::chains that is smaller for N
 /// \throws std::invalid_argument for a smaller budget.
 [[nodiscard]] Options recommended_options(Index evaluations = 31000);
 

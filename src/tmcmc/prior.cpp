@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "tmcmc/parallel.hpp"
@@ -15,23 +16,22 @@ BoxPrior::BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper)
     throw std::invalid_argument("prior: expected as many lower as upper bounds, at least one of each");
   }
   for (Index j = 0; j < lower_.size(); ++j) {
-    if (!std::isfinite(lower_[j]) || !std::isfinite(upper_[j]) || !(lower_[j] < upper_[j])) {
-      throw std::invalid_argument("prior: bounds of parameter " + std::to_string(j) + " are [" +
-                                  std::to_string(lower_[j]) + ", " + std::to_string(upper_[j]) +
-                                  "]: expected finite numbers, lower < upper");
+    if (!std::isfinite(upper_[j] - lower_[j]) || !(std::nextafter(lower_[j], upper_[j]) < upper_[j])) {
+      std::ostringstream message;
+      message << "prior: bounds of parameter " << j << " are [" << std::setprecision(17) << lower_[j] << ", "
+              << upper_[j] << "]: expected finite numbers, lower < upper, with numbers between them";
+      throw std::invalid_argument(message.str());
     }
   }
 }
 
 Population BoxPrior::sample(Index n, const StreamKey& key, int threads) const {
   Population points(n, dimension());
-  Eigen::VectorXd first = lower_;
-  Eigen::VectorXd last = upper_;
+  Eigen::VectorXd first(dimension());
+  Eigen::VectorXd last(dimension());
   for (Index j = 0; j < dimension(); ++j) {
-    if (std::nextafter(lower_[j], upper_[j]) < upper_[j]) {  // there is something between the bounds
-      first[j] = std::nextafter(lower_[j], upper_[j]);
-      last[j] = std::nextafter(upper_[j], lower_[j]);
-    }
+    first[j] = std::nextafter(lower_[j], upper_[j]);
+    last[j] = std::nextafter(upper_[j], lower_[j]);
   }
   for_each_block(n, reduction_rows, threads, [&](Index, Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {

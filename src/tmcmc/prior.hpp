@@ -10,14 +10,15 @@ namespace tmcmc {
 class BoxPrior {
  public:
   /// \param lower,upper  one bound a parameter
-  /// \throws std::invalid_argument unless both have the same positive length and lower < upper, all finite.
+  /// \throws std::invalid_argument unless both have the same positive length, and lower < upper with a finite
+  ///         distance and at least one double between them.
   BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper);
 
   [[nodiscard]] Index dimension() const { return lower_.size(); }
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// n independent draws, n x dimension; none on a bound, unless nothing lies between. They do not depend on the threads.
+  /// n independent draws, n x dimension, none on a bound. They do not depend on the threads.
   [[nodiscard]] Population sample(Index n, const StreamKey& key, int threads = 1) const;
 
  private:

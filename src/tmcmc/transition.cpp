@@ -30,13 +30,26 @@ class Excess {
           statistics_.coefficient_of_variation(step, criterion_.deviation, criterion_.counted) /
           criterion_.target);
     }
-    const double excess = counted_ / statistics_.effective_sample_size(step) - 1.0;
-    return 0.5 * portable_math::log(std::max(excess, 0.0) / (1.0 / criterion_.target - 1.0));
+    return of_effective_size(statistics_.effective_sample_size(step));
+  }
+
+  /// The limit of small steps: the feasible samples have equal weights.
+  [[nodiscard]] double of_feasible(Index feasible) const {
+    if (criterion_.kind == CriterionKind::coefficient_of_variation) {
+      const double n = criterion_.deviation == Deviation::sample ? counted_ - 1.0 : counted_;
+      return portable_math::log(std::sqrt(counted_ / n * (counted_ / static_cast<double>(feasible) - 1.0)) /
+                                criterion_.target);
+    }
+    return of_effective_size(static_cast<double>(feasible));
   }
 
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
+  [[nodiscard]] double of_effective_size(double size) const {
+    return 0.5 * portable_math::log(std::max(counted_ / size - 1.0, 0.0) / (1.0 / criterion_.target - 1.0));
+  }
+
   const WeightStatistics& statistics_;
   Criterion criterion_;
   double counted_;
@@ -119,7 +132,8 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
     low = std::max(low * std::max(factor, 1e-6), smallest_step);
     excess_low = excess(low);
     if (low <= smallest_step && excess_low > 0.0) {
-      result.status = TransitionStatus::unreachable;
+      result.status =
+          excess.of_feasible(feasible) < 0.0 ? TransitionStatus::zero_step : TransitionStatus::unreachable;
       result.evaluations = excess.evaluations();
       return result;
     }

@@ -31,7 +31,7 @@ struct Criterion {
 enum class TransitionStatus {
   final_step,   ///< the remaining step already meets the criterion
   solved,       ///< root found
-  zero_step,    ///< only a step of 0 meets the criterion (N_eff = N)
+  zero_step,    ///< only a step of 0 meets the criterion (N_eff = N), or none of 1e-300 and more
   unreachable,  ///< no positive step meets it: too few samples are feasible
   infeasible    ///< every log-likelihood is minus infinity
 };

@@ -193,6 +193,13 @@ TEST_CASE("every kind of warning has its cause, and says what it found", "[tmcmc
     }
     return std::string();
   };
+  SECTION("not completed") {
+    Options options = good;
+    options.max_stages = 1;
+    const Result result = tmcmc::run(gamma_normal(), options, {.seed = 46});
+    CHECK_THAT(message(result, WarningKind::not_completed),
+               Contains("max_stages") && Contains("below 1;") && Contains("tempered"));
+  }
   SECTION("few feasible draws") {
     const Problem corner =
         problem_of([](const auto& x) { return x[0] < 0.1 && x[1] < 0.1 ? -x[0] : -infinity; },
@@ -219,6 +226,16 @@ TEST_CASE("every kind of warning has its cause, and says what it found", "[tmcmc
     const Result result = tmcmc::run(gamma_normal(), options, {.seed = 46});
     CHECK_THAT(message(result, WarningKind::low_effective_size),
                Contains("parameter 0") && Contains("below 50"));
+  }
+  SECTION("few samples for the covariance") {
+    Options options = good;
+    options.samples = 50;
+    const Result result = tmcmc::run(gamma_normal(), options, {.seed = 46});  // 3 entries
+    CHECK_THAT(message(result, WarningKind::few_for_covariance),
+               Contains("covariance of stage") && Contains("below 10"));
+    options.samples = 100;
+    CHECK(
+        message(tmcmc::run(gamma_normal(), options, {.seed = 46}), WarningKind::few_for_covariance).empty());
   }
   SECTION("uncertain evidence") {
     Options options = good;

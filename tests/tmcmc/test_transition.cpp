@@ -223,6 +223,24 @@ TEST_CASE("N_eff = N allows a step of zero alone", "[tmcmc][transition]") {
   CHECK(t.step == 0.0);
 }
 
+TEST_CASE("a step below 1e-300 counts as zero, whatever the rule", "[tmcmc][transition]") {
+  Values l(100, -1.7e308);
+  std::fill(l.begin(), l.begin() + 10, 1.7e308);
+  for (const Criterion& rule :
+       {ess_rule(0.5, Counted::all), cov_rule(1.0, Deviation::population, Counted::all),
+        cov_rule(1.0, Deviation::sample, Counted::feasible)}) {
+    CHECK(choose_step(l, 1.0, rule).status == TransitionStatus::zero_step);
+  }
+  std::fill(l.begin() + 10, l.begin() + 60,
+            -infinity);  // half of the samples are feasible: N_eff = N/2 in the limit
+  CHECK(choose_step(l, 1.0, ess_rule(0.45, Counted::all)).status == TransitionStatus::zero_step);
+  CHECK(choose_step(l, 1.0, ess_rule(0.55, Counted::all)).status == TransitionStatus::unreachable);
+  CHECK(choose_step(l, 1.0, cov_rule(1.1, Deviation::sample, Counted::all)).status ==
+        TransitionStatus::zero_step);
+  CHECK(choose_step(l, 1.0, cov_rule(0.95, Deviation::sample, Counted::all)).status ==
+        TransitionStatus::unreachable);
+}
+
 TEST_CASE("counting all, too few feasible samples make the criterion unreachable", "[tmcmc][transition]") {
   Values l = skewed(100, 5.0, 7);
   std::fill(l.begin(), l.begin() + 60, -infinity);  // N_eff is at most 40
@@ -273,7 +291,7 @@ TEST_CASE("steps are resolved down to 1e-300", "[tmcmc][transition]") {
         CHECK(t.status == TransitionStatus::solved);
         CHECK_THAT(t.step, WithinRel(scaled_step / (2.0 * level), step_tolerance));
       } else {
-        CHECK(t.status == TransitionStatus::unreachable);
+        CHECK(t.status == TransitionStatus::zero_step);
         CHECK(t.step == 0.0);
       }
     }
