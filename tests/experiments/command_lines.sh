@@ -28,8 +28,9 @@ for e in $experiments; do
   options=""
   [ "$e" = evaluate_model ] && options="--points points.csv"
   [ "$e" = benchmark_problems ] && options="--problem banana"
-  [ "$e" = cost_accuracy ] && options="--family resampling --studies 1"
+  [ "$e" = cost_accuracy ] && options="--family resampling"
   case $("$bin/$e" --help) in *"--runs "*) options="$options --runs 3" ;; esac
+  case $("$bin/$e" --help) in *"--studies "*) options="$options --studies 3" ;; esac
   case $("$bin/$e" --help) in *"--samples "*) options="$options --samples 200" ;; esac
   [ "$e" = report_values ] && options="--values values.csv --tables tables.csv"
   [ "$e" = scaling ] && options="--most-samples 1000 --repetitions 1"
