@@ -146,11 +146,11 @@ TEST_CASE("NaN and plus infinity are named with their parameter point, at the pr
         std::vector<std::string> bad_points;
         Index rows_seen = 0;
         const Problem problem = {
-            [&, b = bad, first = at_prior](const Eigen::Ref<const Eigen::MatrixXd>& points,
-                                           Eigen::Ref<Eigen::VectorXd> values) {
+            [&, b = bad, first = at_prior, prior_rows = options.samples](
+                const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
               const std::lock_guard lock(mutex);
               values = -points.rowwise().sum();
-              if (first || rows_seen >= options.samples) {
+              if (first || rows_seen >= prior_rows) {
                 values[points.rows() - 1] = b;
                 std::ostringstream text;
                 text.precision(17);
