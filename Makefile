@@ -23,7 +23,7 @@ help:
 	@echo 'make paper     the replication report, $(PAPER)/report.pdf'
 	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
 	@echo 'make test      build and run the tests'
-	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
+	@echo 'make verify    check the manifest; regenerate everything into build/verify and compare with the committed files'
 	@echo 'make another-seed  replicated studies with SEED=2, and whether every verdict is the same'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
@@ -246,7 +246,13 @@ $(REPORT): $(VALUES) $(REPORT_SOURCES) $(REPORT_LISTS) $(FIGURES:%=$(FIG)/%.pdf)
 
 # ---------------------------------------------------------------- everything
 
-all: results figures paper README.md
+all: results figures paper README.md $(GEN)/manifest.csv
+
+# How each of them came about: commands, options, seeds, SHA-256 of inputs and outputs.
+MANIFEST_VARIABLES = GEN=$(GEN) FIG=$(FIG) PAPER=$(PAPER) STUDIES=$(STUDIES)
+
+$(GEN)/manifest.csv: $(RESULTS) $(STUDY) $(FIGURE_FILES) $(VALUES) $(REPORT) tools/manifest
+	tools/manifest $@ $(MANIFEST_VARIABLES)
 
 # The tables in the README are copies of generated ones, between markers that name the file.
 README_TABLES := data/generated/compare_published.md data/generated/verdicts.md
@@ -258,12 +264,14 @@ test: $(BUILD)/.built
 	cmake --build --preset release
 	ctest --preset release
 
+# First the hashes of the manifest, then everything made again; each file that differs is named with the first difference.
 verify: build
+	tools/check_manifest $(GEN)/manifest.csv
 	rm -rf build/verify
 	$(MAKE) --no-print-directory GEN=build/verify/data/generated FIG=build/verify/figures \
 	  PAPER=build/verify/paper results figures paper
-	@status=0; for f in $(RESULTS) $(FIGURE_FILES) $(VALUES) $(REPORT); do \
-	  cmp "$$f" "build/verify/$$f" || status=1; done; \
+	@status=0; for f in $$(awk -F, '$$2 == "output" {print $$3}' $(GEN)/manifest.csv); do \
+	  tools/first_difference "$$f" "build/verify/$$f" || status=1; done; \
 	if [ $$status = 0 ]; then echo 'verify: all generated files agree with the committed ones'; \
 	else echo 'verify: files differ'; exit 1; fi
 

@@ -29,6 +29,8 @@ Program::Program(const std::string& name, const std::string& purpose) : app_(pur
   app_.get_formatter()->column_width(36);
   app_.option_defaults()->always_capture_default();
   app_.add_flag("--quiet", quiet_, "Print no report and show no progress");
+  app_.add_flag("--show-options", show_options_, "Print every option with its value, defaults too, and end")
+      ->configurable(false);
 }
 
 void Program::add_output(const std::string& description) {
@@ -49,7 +51,11 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
   io::remove_partial_files_on_signals();
   try {
     app_.parse(argc, argv);
-    body();
+    if (show_options_) {
+      fmt::print("{}", app_.config_to_str(true));
+    } else {
+      body();
+    }
   } catch (const CLI::Success& request) {  // --help, --version
     app_.exit(request);
   } catch (const CLI::ParseError& error) {

@@ -19,7 +19,7 @@
 
 namespace experiments {
 
-/// What every experiment has: --help, --version, --quiet, --output.
+/// What every experiment has: --help, --version, --show-options, --quiet, --output.
 class Program {
  public:
   Program(const std::string& name, const std::string& purpose);
@@ -50,6 +50,7 @@ class Program {
   CLI::App app_;
   std::string output_;
   bool quiet_ = false;
+  bool show_options_ = false;
 };
 
 /// The CSV file of an optional output; none if the path is empty.
