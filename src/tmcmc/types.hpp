@@ -9,6 +9,7 @@
 
 namespace tmcmc {
 
+/// Signed size of Eigen: rows, columns and counts.
 using Index = Eigen::Index;
 
 /// One row a sample, one column a parameter.
@@ -20,6 +21,7 @@ using Population = Eigen::MatrixXd;
 using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                          Eigen::Ref<Eigen::VectorXd> log_likelihood)>;
 
+/// One number a sample, read only.
 using ConstDoubles = std::span<const double>;
 
 /// A run that cannot go on: no feasible draw, a criterion that no step meets, a NaN likelihood.
@@ -34,6 +36,7 @@ class InfeasiblePriorError : public SamplingError {
   using SamplingError::SamplingError;
 };
 
+/// The entries of a vector, which stays referred to.
 [[nodiscard]] inline ConstDoubles as_span(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
