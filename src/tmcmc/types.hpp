@@ -7,6 +7,12 @@
 #include <span>
 #include <stdexcept>
 
+#ifdef TMCMC_EIGEN_MEMORY  // set for users of an installed library
+static_assert(TMCMC_EIGEN_MEMORY == EIGEN_DEFAULT_ALIGN_BYTES + EIGEN_MALLOC_ALREADY_ALIGNED,
+              "tmcmc was compiled for another instruction set or sanitizer than this file, so that Eigen's "
+              "memory cannot pass between them: give both the same -m and -fsanitize flags");
+#endif
+
 namespace tmcmc {
 
 /// Signed size of Eigen: rows, columns and counts.
