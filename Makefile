@@ -11,7 +11,7 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling clean
+.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs clean
 .SECONDARY:
 
 help:
@@ -28,6 +28,8 @@ help:
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
 	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
+	@echo 'make install   install the libraries, their headers and the CMake package into $(PREFIX) (PREFIX=...)'
+	@echo 'make docs      API reference by Doxygen, build/docs/html/index.html'
 	@echo 'make clean     remove build/ and what is not committed'
 	@echo 'One file, e.g.: make figures/fig3_pboxes.pdf'
 
@@ -36,8 +38,10 @@ help:
 PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
   catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
   texlive-latex-recommended texlive-fonts-recommended
+DOC_PACKAGES := doxygen
 
-deps:
+doc-deps: PACKAGES := $(DOC_PACKAGES)
+deps doc-deps:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -297,6 +301,19 @@ scaling: $(BIN)/scaling
 
 identical: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	tools/identical_bytes
+
+# ---------------------------------------------------------------- the libraries elsewhere
+
+PREFIX ?= /usr/local
+
+docs: doc-deps
+	@mkdir -p build/docs
+	doxygen docs/Doxyfile
+
+install:
+	cmake --preset release -B build/install -DTMCMC_BUILD_EXPERIMENTS=OFF -DTMCMC_BUILD_TESTS=OFF $(CMAKE_FLAGS)
+	cmake --build build/install
+	cmake --install build/install --prefix $(PREFIX)
 
 clean:
 	rm -rf build $(GEN)/sampling_study_samples.csv $(GEN)/sampling_study_stages.csv

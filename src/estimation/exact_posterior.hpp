@@ -13,6 +13,7 @@
 
 namespace estimation {
 
+/// Tolerance and limits of the quadrature behind ExactPosterior.
 struct ExactPosteriorOptions {
   /// Largest estimated error of the evidence and of any marginal probability, as a fraction of the
   /// evidence; from 1e-14 to 1e-2. It is a requirement, not a goal: the panels are refined to 1e-12 whatever

@@ -16,9 +16,9 @@ struct LaplaceApproximation {
   /// Whether the mode is a regular maximum inside the bounds and below the limit of continuous motion, with
   /// noise levels above 0. If not, standard_deviation and log_evidence are NaN.
   bool regular = false;
-  std::array<double, friction::parameter_count> mode{};
-  std::array<double, friction::parameter_count> standard_deviation{};
-  double log_evidence = 0.0;
+  std::array<double, friction::parameter_count> mode{};                ///< maximum of the likelihood
+  std::array<double, friction::parameter_count> standard_deviation{};  ///< H_ii^(-1/2)
+  double log_evidence = 0.0;  ///< log P(D), uniform priors normalised
 };
 
 /// Approximates the posterior under uniform priors on the bounds by a normal density at the mode, which is the

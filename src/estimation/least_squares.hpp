@@ -10,6 +10,7 @@
 
 namespace estimation {
 
+/// Noise levels behind the standard errors, and the search for the global minimum.
 struct LeastSquaresOptions {
   double phase_noise_deg = 2.0;         ///< sigma_phase, deg (Eq. 23); for standard errors and chi^2 only
   double frequency_ratio_noise = 0.01;  ///< sigma_r (Eq. 22); likewise
@@ -27,7 +28,7 @@ struct LeastSquaresOptions {
 struct BlockFit {
   double estimate = 0.0;  ///< global minimum among the starts
   double lower = 0.0;     ///< bounds of x
-  double upper = 0.0;
+  double upper = 0.0;     ///< likewise
   bool at_bound = false;  ///< within agreement_tolerance: the standard errors then mean little
 
   std::vector<double> residuals;  ///< observed minus model, unweighted
@@ -37,7 +38,7 @@ struct BlockFit {
   /// Standard error of the estimate from ceres::Covariance (Gauss-Newton, bounds ignored) with noise_given and
   /// with noise_ml; NaN if the model does not depend on x at the estimate.
   double standard_error = 0.0;
-  double standard_error_ml = 0.0;
+  double standard_error_ml = 0.0;    ///< with noise_ml
   double chi_squared = 0.0;          ///< SS / noise_given^2
   double reduced_chi_squared = 0.0;  ///< chi_squared / (n - 1); NaN for n = 1
   /// -n/2 (log(2 pi noise_ml^2) + 1), the part of the log-likelihood at its maximum; +inf if SS = 0.
@@ -51,6 +52,7 @@ struct BlockFit {
   std::string termination;  ///< Ceres' message of that start
 };
 
+/// Both fits; Eq. 24 factorises into them.
 struct LeastSquaresFit {
   BlockFit friction_force;     ///< F_mu, N, and sigma_phase
   BlockFit natural_frequency;  ///< omega_n, Hz, and sigma_r

@@ -33,6 +33,7 @@ class NoiseConditional {
   /// The noise level that is exceeded with probability 1 - p, 0 < p < 1, given the misfit.
   [[nodiscard]] double quantile(double misfit, double p) const;
 
+  /// Estimated error of any probability behind a quantile, see TabulatedDensity::relative_error.
   [[nodiscard]] double relative_error() const { return table_.relative_error(); }
 
  private:

@@ -8,11 +8,14 @@
 
 namespace estimation {
 
+/// Bounds of one parameter, in its unit.
 struct Interval {
-  double lower = 0.0;
-  double upper = 0.0;
+  double lower = 0.0;  ///< less than upper
+  double upper = 0.0;  ///< finite, as lower is
 
+  /// upper - lower, in the unit of the parameter.
   [[nodiscard]] double width() const { return upper - lower; }
+  /// Whether x lies strictly between the bounds.
   [[nodiscard]] bool has_inside(double x) const { return x > lower && x < upper; }
 };
 

@@ -18,6 +18,7 @@ class IntegrationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Accuracy and extent of the table.
 struct TabulationOptions {
   /// Error of the polynomial that a panel is split for, relative to the largest density on the panel. Where
   /// rounding in the log-density does not let it be reached, the panel is kept with the error it has.
@@ -50,29 +51,29 @@ class TabulatedDensity {
   [[nodiscard]] double exceedance(double x) const;  ///< P(X > x), not by subtraction from 1
   /// The x with cdf(x) = p. \throws std::invalid_argument unless 0 <= p <= 1.
   [[nodiscard]] double quantile(double p) const;
-  [[nodiscard]] double mean() const { return mean_; }
-  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }
+  [[nodiscard]] double mean() const { return mean_; }  ///< of the tabulated density
+  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }  ///< of the same
 
   /// Logarithms of cdf and exceedance, and their inverses; the log-probability may be far below -700.
   [[nodiscard]] double log_cdf(double x) const;
-  [[nodiscard]] double log_exceedance(double x) const;
-  [[nodiscard]] double quantile_of_log_cdf(double log_p) const;
-  [[nodiscard]] double quantile_of_log_exceedance(double log_q) const;
+  [[nodiscard]] double log_exceedance(double x) const;                  ///< log P(X > x)
+  [[nodiscard]] double quantile_of_log_cdf(double log_p) const;         ///< log_p <= 0
+  [[nodiscard]] double quantile_of_log_exceedance(double log_q) const;  ///< log_q <= 0
 
   /// Ends of the support, the part below e^-cutoff_nats left out.
   [[nodiscard]] double lower() const { return panels_.front().left; }
-  [[nodiscard]] double upper() const { return panels_.back().right; }
+  [[nodiscard]] double upper() const { return panels_.back().right; }  ///< right end of the last panel
 
   /// Logarithm of the integral of the density as it was given.
   [[nodiscard]] double log_integral() const { return peak_ + log_total_; }
   /// Estimated error of that integral and of any probability: the sum over the panels of interpolation error
   /// times width, as a fraction of the integral.
   [[nodiscard]] double relative_error() const { return relative_error_; }
-  [[nodiscard]] std::size_t panel_count() const { return panels_.size(); }
+  [[nodiscard]] std::size_t panel_count() const { return panels_.size(); }  ///< panels kept
 
   /// Nodes and weights of the composite Gauss rule on the panels, for other integrals over the same variable.
   [[nodiscard]] const std::vector<double>& nodes() const { return nodes_; }
-  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }  ///< one a node, in [x]
 
  private:
   static constexpr std::size_t order = 20;

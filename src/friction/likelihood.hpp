@@ -47,8 +47,11 @@ class Likelihood {
   /// Largest friction force, N, at which the motion is continuous for every observation.
   [[nodiscard]] double limit_friction_force_n() const { return limit_force_ratio_ * driving_force_n_; }
 
+  /// Number of observations, n of Eq. 24.
   [[nodiscard]] std::size_t observation_count() const { return constants_.size(); }
+  /// k Y_b, N, of the physics given.
   [[nodiscard]] double driving_force_n() const { return driving_force_n_; }
+  /// Value where some observation's motion is not continuous, as given.
   [[nodiscard]] double infeasible_log_likelihood() const { return infeasible_log_likelihood_; }
 
  private:

@@ -14,6 +14,7 @@ struct Observations {
   std::vector<double> driving_frequency_hz;  ///< omega_b
   std::vector<double> phase_deg;             ///< measured phase angle
 
+  /// Number of data sets.
   [[nodiscard]] std::size_t size() const { return nominal_ratio.size(); }
 
   /// \throws std::invalid_argument naming field, row (from 0) and value unless there is at least one row, all

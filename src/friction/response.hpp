@@ -33,6 +33,7 @@ enum class PhaseRule {
   fourier_coefficient  ///< first Fourier coefficient, in closed form
 };
 
+/// The excitation, and how the equations that texts read differently are taken.
 struct Physics {
   double driving_force_n = 2.5;                      ///< k Y_b, N (Section 3 of the paper)
   LimitRule limit = LimitRule::supremum;             ///< Eq. 18
@@ -45,8 +46,11 @@ struct ResponseConstants {
   double u;                  ///< U of Eq. 16
   double v;                  ///< 1 / (1 - r^2)
   double limit_force_ratio;  ///< phi_lim of Eq. 18: continuous motion for phi <= phi_lim
-  double a0, a1, a2;         ///< real part
-  double b1, b2;             ///< imaginary part
+  double a0;                 ///< real part: constant
+  double a1;                 ///< real part: factor of phi x0
+  double a2;                 ///< real part: factor of phi^2
+  double b1;                 ///< imaginary part: factor of phi x0
+  double b2;                 ///< imaginary part: factor of phi^2
 };
 
 /// True where U or V is infinite, to within rounding: r = 1, 1/3, 1/5, ...

@@ -60,13 +60,14 @@ enum class SteadyState {
 
 /// Steady response. The numbers describe the periodic motion; where there is none they are NaN, counts 0.
 struct SteadyResponse {
-  SteadyState state;
-  double phase_deg;  ///< lag of the first harmonic of x behind cos(tau), in [0, 180] (Eq. 21)
-  double amplitude;  ///< of the first harmonic of x (0 at rest)
-  bool continuous;   ///< periodic and the mass never sticks
-  int stops_per_period;
+  SteadyState state;          ///< how the search ended
+  double phase_deg;           ///< lag of the first harmonic of x behind cos(tau), in [0, 180] (Eq. 21)
+  double amplitude;           ///< of the first harmonic of x (0 at rest)
+  bool continuous;            ///< periodic and the mass never sticks
+  int stops_per_period;       ///< intervals of sticking that begin in a period
   double sticking_fraction;   ///< share of the period in which the mass sticks (1 at rest)
-  double x, velocity;         ///< state at tau = 0, from which the motion repeats
+  double x;                   ///< at tau = 0, from which the motion repeats
+  double velocity;            ///< dx/dtau there
   double work;                ///< of the forcing over a period, pi times the sine coefficient of x
   double dissipation;         ///< by friction over a period, phi times the path
   double periodicity_error;   ///< estimated distance to the periodic motion, relative to its size

@@ -30,9 +30,13 @@ class CsvTable {
   /// inside an unquoted cell, or if the file holds NUL bytes or is separated by semicolons or tabs.
   static CsvTable read(const std::filesystem::path& path);
 
+  /// The path as given to read().
   const std::filesystem::path& path() const noexcept { return path_; }
+  /// Number of rows below the header, at least 1.
   std::size_t rows() const noexcept { return lines_.size(); }
+  /// Names of the header, in the order of the file.
   const std::vector<std::string>& column_names() const noexcept { return names_; }
+  /// Whether there is a column of this name.
   bool has(std::string_view column) const noexcept;
 
   /// Line of the file, counted from 1, that holds the row. Throws std::out_of_range.

@@ -20,6 +20,7 @@ class Ecdf {
 
   /// The samples in ascending order, duplicates kept.
   std::span<const double> sorted() const noexcept { return sorted_; }
+  /// Number of samples.
   std::size_t size() const noexcept { return sorted_.size(); }
 
  private:
@@ -30,15 +31,15 @@ class Ecdf {
 /// [lower[i], upper[i]]. Before x.front() both bounds are 0, from x.back() on both are 1.
 /// x is strictly increasing, in the unit of the samples; the three vectors have the same length, at least 1.
 struct PBox {
-  std::vector<double> x;
-  std::vector<double> lower;
-  std::vector<double> upper;
+  std::vector<double> x;      ///< breakpoints, strictly increasing
+  std::vector<double> lower;  ///< least fraction on [x[i], x[i+1])
+  std::vector<double> upper;  ///< largest fraction there
 };
 
 /// The bounds of a p-box at one point, 0 <= lower <= upper <= 1.
 struct Bounds {
-  double lower = 0.0;
-  double upper = 0.0;
+  double lower = 0.0;  ///< least value of any of the distribution functions
+  double upper = 0.0;  ///< largest value
 };
 
 /// The tightest p-box around the ECDFs; their sample sizes may differ. x holds every distinct sample.

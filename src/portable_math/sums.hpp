@@ -9,6 +9,7 @@
 
 namespace portable_math {
 
+/// Number of interleaved partial sums.
 constexpr std::size_t sum_lanes = 8;
 
 /// The total of eight partial sums.

@@ -12,7 +12,7 @@ namespace study {
 /// misfit S(x), a sum of squared residuals that is least, S_min, at the least-squares estimate. Every number is NaN
 /// where the motion is not continuous at every observation.
 struct PointTest {
-  double value = 0.0;
+  double value = 0.0;          ///< x, N or Hz
   double chi_squared = 0.0;    ///< S(x) / sigma^2, sigma as stated
   double chi_squared_p = 0.0;  ///< probability of more, chi^2 with n degrees of freedom
   double likelihood_ratio =
@@ -26,12 +26,13 @@ struct PointTest {
 /// 95 % confidence interval: the values around the estimate that a test at the 5 % level does not reject. An
 /// end that the test does not reach before the bound of the fit is the bound, and marked.
 struct ConfidenceInterval {
-  double lower = 0.0;
-  double upper = 0.0;
-  bool lower_at_bound = false;
-  bool upper_at_bound = false;
+  double lower = 0.0;           ///< N or Hz
+  double upper = 0.0;           ///< N or Hz
+  bool lower_at_bound = false;  ///< lower is the bound of the fit
+  bool upper_at_bound = false;  ///< upper is the bound of the fit
 };
 
+/// Least squares of one parameter, how well it fits with the noise stated, and tests of other values.
 struct ParameterAudit {
   double estimate = 0.0;                ///< least squares
   double noise_stated = 0.0;            ///< sigma
@@ -40,19 +41,20 @@ struct ParameterAudit {
   double chi_squared_p = 0.0;           ///< n - 1 degrees of freedom; NaN for n = 1
   ConfidenceInterval noise_known_95;    ///< by the likelihood ratio with sigma as stated
   ConfidenceInterval noise_unknown_95;  ///< by the F test; NaN for n = 1
-  std::vector<PointTest> tests;
+  std::vector<PointTest> tests;         ///< in the order in which Audit states them
 };
 
+/// What the table says of its own statement; vectors have one entry an observation.
 struct Audit {
   std::vector<double> frequency_difference_hz;  ///< omega_b - r omega_n
   std::vector<double> ratio_residual;           ///< (r - r_nom) / sigma_r
   double ratio_chi_squared = 0.0;               ///< sum of their squares: the errors of Eq. 22
-  double ratio_chi_squared_p = 0.0;
+  double ratio_chi_squared_p = 0.0;             ///< chi^2 with n degrees of freedom
   /// (phase - model) / sigma_phase at the stated friction force and at the alternative
   std::vector<double> phase_residual_truth;
-  std::vector<double> phase_residual_alternative;
-  ParameterAudit friction_force;     ///< tests: of the stated truth, then of the alternative
-  ParameterAudit natural_frequency;  ///< tests: of the stated truth
+  std::vector<double> phase_residual_alternative;  ///< the same at the alternative
+  ParameterAudit friction_force;                   ///< tests: of the stated truth, then of the alternative
+  ParameterAudit natural_frequency;                ///< tests: of the stated truth
 };
 
 /// \param truth  what is stated; both noise levels positive

@@ -10,14 +10,16 @@
 
 namespace study {
 
+/// A problem with what is known of its posterior.
 struct BenchmarkProblem {
-  std::string name;
-  tmcmc::Problem problem;
-  double log_evidence = 0.0;
+  std::string name;           ///< as the tables of benchmark_problems have it
+  tmcmc::Problem problem;     ///< likelihood and prior box
+  double log_evidence = 0.0;  ///< exact, the prior normalised
+  /// P(parameter <= x) of the posterior.
   std::function<double(tmcmc::Index parameter, double x)> marginal_cdf;
   /// Where the posterior has two separate modes: whether a point belongs to the first, and the posterior mass of that.
   std::function<bool(const Eigen::Ref<const Eigen::RowVectorXd>&)> in_first_mode;
-  double first_mode_mass = 1.0;
+  double first_mode_mass = 1.0;  ///< exact; 1 for a posterior of one mode
   tmcmc::Options
       options;  ///< the recommended ones, with budget, samples, chains and cross_fit as the problem asks for
 };
@@ -31,9 +33,10 @@ struct BenchmarkProblem {
 /// Two-storey shear frame: natural frequencies in Hz, ascending, of storeys with the given masses (kg) and interstorey
 /// stiffnesses (N/m), ground floor first.
 struct FrameFrequencies {
-  double first;
-  double second;
+  double first;   ///< Hz, the lower one
+  double second;  ///< Hz, the higher one
 };
+/// Square roots of the eigenvalues of M^-1 K over 2 pi, in closed form.
 [[nodiscard]] FrameFrequencies shear_frame_frequencies(double mass_1, double mass_2, double stiffness_1,
                                                        double stiffness_2);
 

@@ -11,18 +11,20 @@
 
 namespace study {
 
+/// Size of a calibration, and its random streams.
 struct CalibrationOptions {
-  tmcmc::Index replications = 2000;
+  tmcmc::Index replications = 2000;  ///< simulated data sets
   tmcmc::Index draws =
       99;  ///< posterior draws that the truth is ranked among: evenly spaced rows of the final population
   tmcmc::Index bins = 20;  ///< of the rank histogram; has to divide draws + 1
-  std::uint64_t seed = 1;
-  int threads = 1;  ///< over the replications
+  std::uint64_t seed = 1;  ///< of the simulated pairs and of the runs
+  int threads = 1;         ///< over the replications
 
   /// \throws std::invalid_argument naming field, value and constraint.
   void validate() const;
 };
 
+/// Ranks of the truths; see rank_histogram for what they say.
 struct CalibrationResult {
   std::vector<std::vector<tmcmc::Index>> ranks;  ///< [parameter][replication], from 0 to draws
   tmcmc::Index unfinished =
@@ -33,9 +35,10 @@ struct CalibrationResult {
 /// design are drawn anew, measured ratio and driving frequency stay. Pairs without continuous motion or with a nominal ratio
 /// that is not positive are drawn again; since the data alone decide of the latter, the ranks stay uniform.
 struct SimulatedPair {
-  Eigen::VectorXd parameters;
-  friction::Observations observations;
+  Eigen::VectorXd parameters;           ///< in the order of friction::Parameter
+  friction::Observations observations;  ///< drawn from the model at these
 };
+/// Pair number `replication` of the seed.
 [[nodiscard]] SimulatedPair simulate_pair(const friction::Observations& design,
                                           const friction::Physics& physics, const tmcmc::BoxPrior& prior,
                                           std::uint64_t seed, std::uint32_t replication);
@@ -48,13 +51,13 @@ struct SimulatedPair {
 
 /// Rank histogram of one parameter, and how far it is from uniform.
 struct RankHistogram {
-  std::vector<tmcmc::Index> counts;
-  double chi_squared = 0.0;  ///< with bins - 1 degrees of freedom
-  double coverage_50 = 0.0;  ///< fraction of the truths inside the central 50 % of the draws
-  double coverage_90 = 0.0;
-  double p_chi_squared = 1.0;
-  double p_coverage_50 = 1.0;  ///< two-sided, of the binomial distribution
-  double p_coverage_90 = 1.0;
+  std::vector<tmcmc::Index> counts;  ///< one entry a bin
+  double chi_squared = 0.0;          ///< with bins - 1 degrees of freedom
+  double coverage_50 = 0.0;          ///< fraction of the truths inside the central 50 % of the draws
+  double coverage_90 = 0.0;          ///< likewise, of the central 90 %
+  double p_chi_squared = 1.0;        ///< of chi_squared
+  double p_coverage_50 = 1.0;        ///< two-sided, of the binomial distribution
+  double p_coverage_90 = 1.0;        ///< likewise
 };
 /// \param ranks  from 0 to draws, at least one
 /// \throws std::invalid_argument for invalid options or a rank out of range.

@@ -8,8 +8,10 @@
 
 namespace study {
 
+/// Number of runs by category.
 using Counts = std::map<std::int64_t, std::int64_t>;
 
+/// Sum of the counts over all categories.
 [[nodiscard]] std::int64_t total_of(const Counts& counts);
 
 /// Category probabilities of pooled counts, with half a count added to each category of `categories` and to each that

@@ -13,16 +13,16 @@ namespace study {
 /// How the null distribution of a deviance is simulated. The runs of a study are independent, so a table of counts is
 /// multinomial; its probabilities come from all runs of the replicated studies, not from tables of one study each.
 struct TableDraws {
-  int tables = 200000;
+  int tables = 200000;     ///< simulated tables
   int resamples = 100;     ///< of the replicated runs, at least 2: what their finite number adds to the error
   std::uint64_t seed = 1;  ///< stream of its own (Purpose::statistics): not that of any study
 };
 
 /// A deviance in its null distribution.
 struct DevianceTest {
-  double statistic = 0.0;
-  double critical = 0.0;  ///< 95 % quantile of the null
-  Interval95 interval{};  ///< central 95 % of the null
+  double statistic = 0.0;  ///< deviance of the printed tables
+  double critical = 0.0;   ///< 95 % quantile of the null
+  Interval95 interval{};   ///< central 95 % of the null
   /// Probability of a deviance at least as large. Its standard error has two parts: the number of tables drawn, and the
   /// number of replicated runs, by a parametric bootstrap of the probabilities that re-weights the same tables.
   PValue p;

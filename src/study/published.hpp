@@ -12,14 +12,15 @@ namespace study {
 
 /// Number of an area: which parameter's.
 struct PrintedArea {
-  std::string sampler;
+  std::string sampler;    ///< whose column
   std::size_t parameter;  ///< index into StudySummary::areas
   std::string printed;    ///< as printed, for its rounding
 };
 
+/// A printed column of Table 4.
 struct PrintedCounts {
-  std::string sampler;
-  Counts counts;
+  std::string sampler;  ///< whose column
+  Counts counts;        ///< number of runs by number of iterations
 };
 
 /// Which studies are the null distribution of a sampler's printed numbers.
@@ -30,27 +31,28 @@ enum class Null {
 
 /// Margins within which two samplers are equivalent: ratios of median areas, and of mean iterations.
 constexpr double area_margin = 0.10;
+/// Margin of the ratio of mean iterations.
 constexpr double iteration_margin = 0.02;
 
 /// A printed number in its null distribution.
 struct CellVerdict {
-  std::string sampler;
-  std::size_t parameter = 0;
-  double printed = 0.0;
-  double median = 0.0;
-  Interval95 interval{};
-  PValue p;       ///< two-sided
-  PValue p_holm;  ///< over all cells judged together
-  Typicality number = Typicality::reproduced;
+  std::string sampler;                         ///< as printed
+  std::size_t parameter = 0;                   ///< index into StudySummary::areas
+  double printed = 0.0;                        ///< the area as printed
+  double median = 0.0;                         ///< of the null studies
+  Interval95 interval{};                       ///< central 95 % of the null studies
+  PValue p;                                    ///< two-sided
+  PValue p_holm;                               ///< over all cells judged together
+  Typicality number = Typicality::reproduced;  ///< judged by p_holm
 };
 
 /// The printed Table 4: the deviance of all its columns, which are independent runs, and the distribution of tables of as
 /// many runs. One table is one verdict; the columns alone are for information, and not adjusted.
 struct CountsVerdict {
-  DevianceTest test;
-  PValue p_holm;
-  Typicality number = Typicality::reproduced;
-  std::vector<DevianceTest> columns;  ///< in the order given
+  DevianceTest test;                           ///< of all columns together
+  PValue p_holm;                               ///< adjusted with the areas
+  Typicality number = Typicality::reproduced;  ///< judged by p_holm
+  std::vector<DevianceTest> columns;           ///< in the order given
 };
 
 /// Comparison of two samplers in one quantity.
@@ -61,8 +63,9 @@ struct ContrastVerdict {
   Equivalence replicated{};  ///< second sampler over first: medians of areas, or of mean iterations
 };
 
+/// Verdicts on the printed numbers, adjusted together.
 struct PublishedVerdicts {
-  std::vector<CellVerdict> areas;
+  std::vector<CellVerdict> areas;       ///< in the order given
   std::optional<CountsVerdict> counts;  ///< none if no counts were given
 };
 

@@ -16,12 +16,13 @@ namespace study {
 struct Reading {
   tmcmc::Options
       sampler;  ///< all but kind and target of the criterion, which belong to the samplers compared
-  friction::Physics physics;
+  friction::Physics physics;               ///< of the phase model: Eqs. 18 and 21
   double infeasible_log_likelihood = 0.0;  ///< where the motion is not continuous
   /// Lower prior bound of the natural frequency, Hz, where it differs from Table 2.
   std::optional<double> natural_frequency_lower_hz;
 };
 
+/// The readings there are.
 enum class ReadingName {
   as_published,  ///< the authors' published scripts, with N_eff = N/2 for TMCMC-II: the default of the
                  ///< reproduction
@@ -29,6 +30,7 @@ enum class ReadingName {
   corrected      ///< correct mathematics
 };
 
+/// The options of a reading, as the README tabulates them.
 [[nodiscard]] Reading reading(ReadingName name);
 
 /// The sampling problem of a reading: likelihood of the observations and prior.
@@ -44,8 +46,8 @@ enum class ReadingName {
 
 /// One of the samplers that a study compares: a name and complete options.
 struct Arm {
-  std::string name;
-  tmcmc::Options options;
+  std::string name;        ///< as tables and files have it
+  tmcmc::Options options;  ///< complete, criterion included
 };
 
 /// The paper's two samplers: TMCMC (CoV = cov_target, Eq. 6) and TMCMC-II (N_eff = ess_fraction N, Eq. 9).

@@ -10,17 +10,18 @@ namespace study {
 
 /// What one study reports of one sampler; vectors have one entry a parameter.
 struct StudySummary {
-  std::uint32_t study = 0;
-  std::string sampler;
+  std::uint32_t study = 0;              ///< number of the study in its random streams
+  std::string sampler;                  ///< name of the arm
   std::vector<double> areas;            ///< of the p-boxes (Eq. 25)
   std::vector<double> means;            ///< mean over the runs of the posterior means
   std::vector<double> standard_errors;  ///< standard deviation over the runs of the posterior means
   std::vector<double> smallest;         ///< smallest and largest sample of all runs: the ends of the p-box
-  std::vector<double> largest;
-  double log_evidence_mean = 0.0;  ///< over the runs
-  double log_evidence_sd = 0.0;
+  std::vector<double> largest;          ///< see smallest
+  double log_evidence_mean = 0.0;       ///< over the runs
+  double log_evidence_sd = 0.0;         ///< over the runs (N - 1)
   std::map<tmcmc::Index, tmcmc::Index> iterations;  ///< number of runs by number of iterations
 
+  /// Equal in every number, to the last bit.
   friend bool operator==(const StudySummary&, const StudySummary&) = default;
 };
 

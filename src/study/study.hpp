@@ -9,9 +9,10 @@
 
 namespace study {
 
+/// Size of a study and its random streams.
 struct StudyOptions {
-  tmcmc::Index runs = 50;  ///< R, of each sampler (Section 4 of the paper)
-  std::uint64_t seed = 1;
+  tmcmc::Index runs = 50;   ///< R, of each sampler (Section 4 of the paper)
+  std::uint64_t seed = 1;   ///< of the random streams
   std::uint32_t study = 0;  ///< number of the study among its replications
   int threads = 1;          ///< over the runs
 
@@ -21,10 +22,11 @@ struct StudyOptions {
 
 /// One run: final samples, records of the stages, and moments.
 struct Run {
-  tmcmc::Result result;
+  tmcmc::Result result;                ///< as the sampler returned it
   Eigen::VectorXd mean;                ///< of the final samples, one entry a parameter
   Eigen::VectorXd standard_deviation;  ///< of the final samples (N - 1)
 
+  /// Number of stages: what Table 4 counts.
   [[nodiscard]] tmcmc::Index iterations() const { return static_cast<tmcmc::Index>(result.stages.size()); }
 };
 
@@ -46,8 +48,8 @@ using RunObserver = std::function<void()>;
 
 /// Mean and standard deviation (N - 1; 0 for one value) in index order.
 struct Moments {
-  double mean = 0.0;
-  double standard_deviation = 0.0;
+  double mean = 0.0;                ///< sum over n
+  double standard_deviation = 0.0;  ///< in the unit of the values
 };
 /// \throws std::invalid_argument if there is no value.
 [[nodiscard]] Moments moments(std::span<const double> values);

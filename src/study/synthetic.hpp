@@ -12,10 +12,10 @@ namespace study {
 
 /// Truth of synthetic data; the defaults are the values that the paper states.
 struct Truth {
-  double friction_force_n = 1.086;
-  double natural_frequency_hz = 3.086;
-  double phase_noise_deg = 2.0;
-  double frequency_ratio_noise = 0.01;
+  double friction_force_n = 1.086;      ///< F_mu, N
+  double natural_frequency_hz = 3.086;  ///< omega_n, Hz
+  double phase_noise_deg = 2.0;         ///< sigma_phase, deg (Eq. 23)
+  double frequency_ratio_noise = 0.01;  ///< sigma_r, dimensionless (Eq. 22)
 };
 
 /// The nominal frequency ratios of Table 1: k/14 for odd k = 9 ... 27, to three decimals.

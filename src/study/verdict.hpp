@@ -13,9 +13,10 @@ namespace study {
 /// \throws std::invalid_argument unless the text is a decimal number.
 [[nodiscard]] double rounding_half_width(const std::string& printed);
 
+/// An interval that holds 95 %: of what, its owner says.
 struct Interval95 {
-  double low;
-  double high;
+  double low;   ///< 2.5 % lie below
+  double high;  ///< 2.5 % lie above
 };
 
 /// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan 1996).
@@ -25,8 +26,8 @@ struct Interval95 {
 
 /// A p-value by simulation, and its Monte Carlo standard error: how much it would vary with another seed.
 struct PValue {
-  double value = 1.0;
-  double standard_error = 0.0;
+  double value = 1.0;           ///< in (0, 1]
+  double standard_error = 0.0;  ///< Monte Carlo, of the value
 };
 
 /// Two-sided Monte Carlo p-value of a value against draws from the null: twice the smaller tail, the value itself counted
@@ -58,9 +59,9 @@ struct RatioTest {
 struct Equivalence {
   double ratio;         ///< median(second) / median(first)
   Interval95 interval;  ///< 95 % bootstrap percentile interval
-  double margin;
-  bool equivalent;  ///< the interval lies within [1/(1 + margin), 1 + margin]
-  bool different;   ///< the interval does not hold 1
+  double margin;        ///< 0.10 for 10 %
+  bool equivalent;      ///< the interval lies within [1/(1 + margin), 1 + margin]
+  bool different;       ///< the interval does not hold 1
 };
 
 /// \param seed  of the bootstrap (resamples of each sample, `resamples` times)
@@ -83,7 +84,9 @@ enum class Verdict {
 /// "reproduced", "consistent with chance", ...
 [[nodiscard]] const std::string& name_of(Verdict verdict);
 
+/// Below it, a number is untypical of the null.
 constexpr double significance_level = 0.05;
+/// Below it, a number is not reproduced.
 constexpr double strict_significance = 0.01;
 
 /// What the 95 % Monte Carlo interval p +- 1.96 standard errors of a p-value says of a printed number.

@@ -28,6 +28,7 @@ class BridgeEvidence {
   /// \param step  dbeta, not negative
   void add(ConstDoubles before, ConstDoubles after, std::span<const Index> parents, double step);
 
+  /// Sum of the logarithms of the ratios added so far: log Z at the last beta, of a normalised prior.
   [[nodiscard]] double log_evidence() const { return log_evidence_; }
 
   /// 0 before the first step. Where all chains of a stage started from one chain, they are taken one by one. Infinity for

@@ -40,8 +40,11 @@ class WeightStatistics {
   /// \param log_likelihood  stays referred to
   explicit WeightStatistics(ConstDoubles log_likelihood, int threads = 1);
 
+  /// Number of log-likelihoods that are not minus infinity.
   [[nodiscard]] Index feasible() const { return feasible_; }
+  /// As the free function of this name.
   [[nodiscard]] double effective_sample_size(double step) const;
+  /// As the free function of this name.
   [[nodiscard]] double coefficient_of_variation(double step, Deviation deviation, Counted counted) const;
   /// Standard deviation of the feasible log-likelihoods; 0 if it is not a positive number.
   [[nodiscard]] double log_likelihood_spread() const;
@@ -60,6 +63,7 @@ class WeightStatistics {
 /// infinity if no sample is feasible.
 [[nodiscard]] double log_mean_weight(ConstDoubles log_likelihood, double step);
 
+/// Sums of the weights of a step.
 struct WeightSums {
   double sum;       ///< of the weights relative to the largest
   double log_mean;  ///< of the weights themselves, see log_mean_weight

@@ -9,14 +9,16 @@
 
 namespace tmcmc {
 
+/// What Metropolis steps did, summed over rows and steps.
 struct MoveCounts {
-  Index proposals = 0;
-  Index accepted = 0;
-  Index walks = 0;  ///< proposals by a random walk, not independent ones
-  Index accepted_walks = 0;
-  Index evaluations = 0;  ///< log-likelihoods asked for; proposals outside the box need none
-  Index redraws = 0;
+  Index proposals = 0;       ///< proposals made, one a row and step; redrawn ones count once
+  Index accepted = 0;        ///< proposals accepted
+  Index walks = 0;           ///< proposals by a random walk, not independent ones
+  Index accepted_walks = 0;  ///< of `walks`
+  Index evaluations = 0;     ///< log-likelihoods asked for; proposals outside the box need none
+  Index redraws = 0;         ///< proposals drawn again (Boundary::redraw)
 
+  /// Adds field by field.
   MoveCounts& operator+=(const MoveCounts& other);
 };
 

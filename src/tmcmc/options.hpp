@@ -35,12 +35,14 @@ enum class ScaleRule {
   acceptance_linked
 };
 
+/// All that a run depends on besides problem and StreamKey. The defaults are the paper's sampler (N = 1000, CoV = 1, three
+/// steps of scale 0.2) with the population standard deviation; recommended_options() samples better for the same cost.
 struct Options {
-  Index samples = 1000;  ///< N
-  Criterion criterion;   ///< Eq. 6 or 9
-  Resampling resampling = Resampling::multinomial;
+  Index samples = 1000;                             ///< N
+  Criterion criterion;                              ///< Eq. 6 or 9
+  Resampling resampling = Resampling::multinomial;  ///< how the starts of a stage are drawn
 
-  MoveKind move = MoveKind::resample_move;
+  MoveKind move = MoveKind::resample_move;  ///< how the starts become samples
   Index move_steps =
       3;  ///< Metropolis steps a chain and stage (resample-move); the least number with mixing_correlation
   /// If positive: a stage of resample-move goes on until the correlation between the states of the chains and their
@@ -49,11 +51,11 @@ struct Options {
   Index max_move_steps = 1000;  ///< with mixing_correlation
   Index chains = 50;            ///< M of waste-free; has to divide samples
 
-  ScaleRule scale_rule = ScaleRule::fixed;
-  double proposal_scale = 0.2;            ///< gamma of Eq. 5, with ScaleRule::fixed
-  double target_acceptance = 0.3;         ///< with ScaleRule::target_acceptance
-  Centre centre = Centre::weighted_mean;  ///< m of Eq. 5
-  Coordinates coordinates = Coordinates::natural;
+  ScaleRule scale_rule = ScaleRule::fixed;         ///< of the random walks
+  double proposal_scale = 0.2;                     ///< gamma of Eq. 5, with ScaleRule::fixed
+  double target_acceptance = 0.3;                  ///< with ScaleRule::target_acceptance
+  Centre centre = Centre::weighted_mean;           ///< m of Eq. 5
+  Coordinates coordinates = Coordinates::natural;  ///< of the proposals
   bool random_subsets =
       false;  ///< a proposal changes a random set of (whitened) coordinates: MetropolisKernel
   double independent_fraction = 0.0;  ///< share of independent proposals: MetropolisKernel
@@ -68,7 +70,7 @@ struct Options {
   /// (StageRecord::feasible, and the check that the first population has any); for models that use a penalty
   /// in place of minus infinity.
   double infeasible_level = -std::numeric_limits<double>::infinity();
-  Index max_stages = 1000;
+  Index max_stages = 1000;      ///< a run that needs more ends with StopReason::stage_limit
   double minimum_step = 1e-15;  ///< a smaller step of beta that does not reach 1 ends the run
   /// Most log-likelihoods of a run; 0: no limit. The chains of the last stage go on until it is used up, and a run that
   /// would need more before ends with StopReason::budget. Not for growing chains.

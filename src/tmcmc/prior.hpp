@@ -7,6 +7,8 @@
 
 namespace tmcmc {
 
+/// Uniform density on the box lower < x < upper. Another prior is a uniform one in other parameters: map the box by the
+/// prior's quantile functions inside the log-likelihood.
 class BoxPrior {
  public:
   /// \param lower,upper  one bound a parameter
@@ -14,8 +16,11 @@ class BoxPrior {
   ///         distance and at least one double between them.
   BoxPrior(Eigen::VectorXd lower, Eigen::VectorXd upper);
 
+  /// d, the number of parameters.
   [[nodiscard]] Index dimension() const { return lower_.size(); }
+  /// Lower bounds, d.
   [[nodiscard]] const Eigen::VectorXd& lower() const { return lower_; }
+  /// Upper bounds, d.
   [[nodiscard]] const Eigen::VectorXd& upper() const { return upper_; }
 
   /// n independent draws, n x dimension, none on a bound. They do not depend on the threads.

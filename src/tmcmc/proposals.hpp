@@ -33,18 +33,18 @@ struct MetropolisKernel {
   Eigen::MatrixXd factor;    ///< lower triangular, d x d
   double factor_unit = 1.0;  ///< factor times this is the Cholesky factor of the covariance itself
   Eigen::VectorXd
-      centre;  ///< mean of the population in the same coordinates; needed if independent_fraction > 0
-  double beta = 1.0;
-  double scale = 1.0;                 ///< of a random walk
+      centre;          ///< mean of the population in the same coordinates; needed if independent_fraction > 0
+  double beta = 1.0;   ///< temperature of the target, L^beta times the prior
+  double scale = 1.0;  ///< of a random walk
   bool divide_by_sqrt_size = false;   ///< divides scale by the square root of the number of coordinates in S
   double independent_fraction = 0.0;  ///< probability that a proposal is an independent one
   /// S: one coordinate at random, and each other with a probability that is itself drawn from 1, 1/2, 1/4, ... down to
   /// 1/d; else all.
   bool random_subsets = false;
-  Coordinates coordinates = Coordinates::natural;
-  Boundary boundary = Boundary::reject;
-  Index max_redraws = 100000;
-  std::uint32_t stage = 0;  ///< enters the random stream
+  Coordinates coordinates = Coordinates::natural;  ///< see Coordinates
+  Boundary boundary = Boundary::reject;            ///< see Boundary; redraw with plain() alone
+  Index max_redraws = 100000;                      ///< see Options::max_redraws
+  std::uint32_t stage = 0;                         ///< enters the random stream
 
   /// A random walk in all natural coordinates: what the paper has.
   [[nodiscard]] bool plain() const {
@@ -59,10 +59,14 @@ struct MetropolisKernel {
 /// Proposals for up to 64 chains at a time, with the memory that they take.
 class ProposalLanes {
  public:
+  /// Most chains that a call serves.
   static constexpr std::size_t lanes = 64;
+  /// One number a chain.
   using Lanes = std::array<double, lanes>;
+  /// Row of the population that each chain lives in.
   using RowIds = std::array<std::uint64_t, lanes>;
 
+  /// \param dimension  d, the number of parameters
   explicit ProposalLanes(Index dimension);
 
   /// Draws what the proposals of `count` rows need; the log-uniforms of the acceptance too if log_uniforms is given.
@@ -76,6 +80,7 @@ class ProposalLanes {
   /// Marks the proposals inside the box and returns their number.
   std::size_t check(const BoxPrior& prior, std::size_t count);
 
+  /// Whether check() has found the proposal of a chain inside the box.
   [[nodiscard]] bool inside(std::size_t lane) const { return inside_[lane] != 0.0; }
   /// Proposed parameter j, a lane a chain.
   [[nodiscard]] const Lanes& parameter(Index j) const { return x_[static_cast<std::size_t>(j)]; }

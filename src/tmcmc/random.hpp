@@ -12,10 +12,10 @@ namespace tmcmc {
 
 /// Names one run. Runs that differ in any field have independent streams.
 struct StreamKey {
-  std::uint64_t seed = 0;
-  std::uint32_t study = 0;
-  std::uint32_t arm = 0;  ///< which of the samplers that a study compares; below 2^24
-  std::uint32_t run = 0;
+  std::uint64_t seed = 0;   ///< of all streams
+  std::uint32_t study = 0;  ///< number of the study among its replications
+  std::uint32_t arm = 0;    ///< which of the samplers that a study compares; below 2^24
+  std::uint32_t run = 0;    ///< number of the run within the study
 };
 
 /// What a draw is for; keeps the draws of one stage apart. `statistics`: of runs that are done.
@@ -23,14 +23,15 @@ enum class Purpose : std::uint32_t { prior, resampling, move, data, statistics }
 
 /// Place of a block of four random words within a run.
 struct DrawId {
-  Purpose purpose = Purpose::prior;
-  std::uint32_t stage = 0;
-  std::uint64_t row = 0;      ///< row of the population
-  std::uint32_t draw = 0;     ///< step of a move
-  std::uint32_t attempt = 0;  ///< repetition of a draw that was discarded
-  std::uint32_t block = 0;    ///< where one draw needs more than four words
+  Purpose purpose = Purpose::prior;  ///< what the draw is for
+  std::uint32_t stage = 0;           ///< stage of the sampler, the prior being 0
+  std::uint64_t row = 0;             ///< row of the population
+  std::uint32_t draw = 0;            ///< step of a move
+  std::uint32_t attempt = 0;         ///< repetition of a draw that was discarded
+  std::uint32_t block = 0;           ///< where one draw needs more than four words
 };
 
+/// Output of one call of the generator.
 using Words = std::array<std::uint64_t, 4>;
 
 /// Four independent uniform 64-bit words. The counter is (stage | arm, purpose), row, (draw, attempt), block;
@@ -47,9 +48,10 @@ PORTABLE_MATH_INLINE double uniform_32(std::uint64_t bits) {
   return (std::bit_cast<double>((bits & 0xffffffffU) | 0x4330000000000000U) - 4503599627370496.0) * 0x1p-32;
 }
 
+/// Two independent standard normal numbers.
 struct NormalPair {
-  double first;
-  double second;
+  double first;   ///< radius times cosine
+  double second;  ///< radius times sine
 };
 
 /// Two independent standard normals (Box and Muller 1958): radius from 52 bits of a word, angle from 32 bits.

@@ -20,9 +20,9 @@ enum class Resampling {
 
 /// Memory of resample(), to be reused from call to call.
 struct ResamplingWorkspace {
-  std::vector<double> partial_sums;
-  std::vector<double> residuals;
-  std::vector<Index> drawn;
+  std::vector<double> partial_sums;  ///< of the weights
+  std::vector<double> residuals;     ///< of the expected numbers of copies
+  std::vector<Index> drawn;          ///< ancestors of the multinomial part
 };
 
 /// Ancestors of `ancestors.size()` draws, in ascending order; their number need not be that of the weights. Linear time.
@@ -30,6 +30,7 @@ struct ResamplingWorkspace {
 /// \param threads  the result does not depend on it
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
               std::span<Index> ancestors, ResamplingWorkspace& work, int threads = 1);
+/// The same with work space of its own.
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
               std::span<Index> ancestors);
 

@@ -29,32 +29,34 @@ struct Walkers {
 
 /// A population at one temperature.
 struct State : Walkers {
-  double beta = 0.0;
-  double log_evidence = 0.0;  ///< sum of the log-mean weights up to beta
-  Index stage = 0;
+  double beta = 0.0;            ///< temperature: the points follow L^beta times the prior
+  double log_evidence = 0.0;    ///< sum of the log-mean weights up to beta
+  Index stage = 0;              ///< stages behind it; 0 for draws from the prior
   Index evaluations = 0;        ///< log-likelihoods so far
   double proposal_scale = 0.0;  ///< what the rules that adapt it have come to; 0 before the first stage
   Genealogy genealogy;          ///< without Options::diagnose the number of chains alone
 };
 
+/// What a stage did: choice of the step, resampling and moves.
 struct StageRecord {
-  Index stage = 0;    ///< from 1
-  double beta = 0.0;  ///< after the stage
-  double step = 0.0;
+  Index stage = 0;                        ///< from 1
+  double beta = 0.0;                      ///< after the stage
+  double step = 0.0;                      ///< dbeta
   double effective_sample_size = 0.0;     ///< of the weights of the step
   double coefficient_of_variation = 0.0;  ///< of the weights, as the step rule reports it
-  double log_evidence_increment = 0.0;
+  double log_evidence_increment = 0.0;    ///< log of the mean weight
   double acceptance_rate = 0.0;  ///< of all proposals, those outside the box (Boundary::reject) included
   Index feasible = 0;            ///< samples before the stage with a log-likelihood above infeasible_level
-  Index distinct_ancestors = 0;
-  Index evaluations = 0;  ///< log-likelihoods in this stage
-  Index redraws = 0;
-  Index move_steps = 0;  ///< Metropolis steps of each chain; of the longest one with growing chains
+  Index distinct_ancestors = 0;  ///< different rows among the starts
+  Index evaluations = 0;         ///< log-likelihoods in this stage
+  Index redraws = 0;             ///< proposals drawn again (Boundary::redraw)
+  Index move_steps = 0;          ///< Metropolis steps of each chain; of the longest one with growing chains
   double proposal_scale =
       0.0;  ///< at the end of the stage; before a division by the square root of a subset's size
   int transition_evaluations = 0;  ///< evaluations of all weights to find the step
 };
 
+/// Why a run ended.
 enum class StopReason {
   completed,       ///< beta = 1
   stage_limit,     ///< max_stages
@@ -64,10 +66,11 @@ enum class StopReason {
 
 /// A log-evidence with its standard error.
 struct Evidence {
-  double log_evidence = 0.0;
-  double standard_error = 0.0;
+  double log_evidence = 0.0;    ///< log P(D), the prior normalised
+  double standard_error = 0.0;  ///< of the log-evidence, from one run
 };
 
+/// Signs of a run that should not be believed without a second look. src/tmcmc/README.md says what to do about each.
 enum class WarningKind {
   not_completed,       ///< stop is not completed: the samples are those of a tempered posterior
   few_feasible,        ///< less than 1 % of the draws from the prior, or fewer than 20, are feasible
@@ -81,20 +84,23 @@ enum class WarningKind {
   few_for_covariance
 };
 
+/// One finding.
 struct Warning {
-  WarningKind kind;
+  WarningKind kind;     ///< for programs
   std::string message;  ///< what was found, against which bound, and what helps
 };
 
+/// What a run says of its own quality.
 struct Diagnostics {
   Eigen::VectorXd effective_sample_size;  ///< of each parameter
   std::vector<Warning> warnings;          ///< empty for a run that looks healthy
 };
 
+/// A finished run.
 struct Result {
-  State final;  ///< samples of the posterior if stop is completed
-  std::vector<StageRecord> stages;
-  StopReason stop = StopReason::completed;
+  State final;                              ///< samples of the posterior if stop is completed
+  std::vector<StageRecord> stages;          ///< one a stage, in order
+  StopReason stop = StopReason::completed;  ///< why the run ended
   Evidence
       evidence;  ///< by bridge sampling up to final.beta; final.log_evidence is the sum of log-mean weights
   Diagnostics diagnostics;  ///< empty, as is evidence, without Options::diagnose

@@ -12,21 +12,23 @@
 
 namespace tmcmc {
 
+/// What is sampled: the posterior proportional to likelihood times prior.
 struct Problem {
-  LogLikelihood log_likelihood;
-  BoxPrior prior;
+  LogLikelihood log_likelihood;  ///< of the whole population, a row a point
+  BoxPrior prior;                ///< uniform on a box
 };
 
 /// Memory of a run that every stage uses again.
 struct Workspace {
+  /// The problem stays referred to.
   Workspace(const Problem& problem, const Options& options, const StreamKey& key);
 
-  Mover mover;
-  std::vector<double> weights;
-  std::vector<double> by_chain;  ///< the weights in the order of the chains
-  std::vector<Index> ancestors;
-  ResamplingWorkspace resampling;
-  StageMoveWorkspace moves;
+  Mover mover;                     ///< work space of the Metropolis steps
+  std::vector<double> weights;     ///< of the rows of the population, relative to the largest
+  std::vector<double> by_chain;    ///< the weights in the order of the chains
+  std::vector<Index> ancestors;    ///< row that each chain starts from
+  ResamplingWorkspace resampling;  ///< work space of resample()
+  StageMoveWorkspace moves;        ///< work space of move_population()
 };
 
 /// Called after each stage with its record and the new population.

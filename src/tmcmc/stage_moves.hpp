@@ -10,9 +10,10 @@
 
 namespace tmcmc {
 
+/// Memory of move_population(), to be reused from stage to stage.
 struct StageMoveWorkspace {
-  Walkers chains;     // of waste-free
-  Population starts;  // where the mixing is measured
+  Walkers chains;     ///< present states of the chains of waste-free
+  Population starts;  ///< where the mixing is measured
 };
 
 /// The kernel of a stage; with Options::cross_fit one for each half of the starts.
@@ -21,9 +22,10 @@ struct StageKernels {
   std::vector<std::vector<Index>> rows;   ///< rows of each of two kernels; empty for one
 };
 
+/// What the moves of a stage did.
 struct StageMoves {
-  MoveCounts counts;
-  Index steps = 0;  ///< Metropolis steps of each chain; of the longest one with growing chains
+  MoveCounts counts;  ///< over all chains and steps
+  Index steps = 0;    ///< Metropolis steps of each chain; of the longest one with growing chains
 };
 
 /// Moves the starts of a stage.

@@ -10,14 +10,15 @@
 
 namespace tmcmc {
 
+/// Which number of the weights a step is chosen by.
 enum class CriterionKind { coefficient_of_variation, effective_sample_size };
 
 /// A rule for the tempering step, as a value.
 struct Criterion {
-  CriterionKind kind = CriterionKind::coefficient_of_variation;
+  CriterionKind kind = CriterionKind::coefficient_of_variation;  ///< Eq. 6 or Eq. 9
   double target = 1.0;  ///< CoV (Eq. 6: 1), or N_eff as a fraction of the samples counted (Eq. 9: 1/2)
   Deviation deviation = Deviation::population;  ///< for the coefficient of variation
-  Counted counted = Counted::feasible;
+  Counted counted = Counted::feasible;          ///< the samples that the criterion is about
 
   /// \throws std::invalid_argument unless target is positive, and at most 1 for the effective sample size.
   void validate() const;
@@ -28,6 +29,7 @@ struct Criterion {
 /// N_eff = fraction of the samples counted (Eq. 9).
 [[nodiscard]] Criterion effective_sample_size_rule(double fraction = 0.5);
 
+/// How the search for a step ended.
 enum class TransitionStatus {
   final_step,   ///< the remaining step already meets the criterion
   solved,       ///< root found
@@ -36,14 +38,15 @@ enum class TransitionStatus {
   infeasible    ///< every log-likelihood is minus infinity
 };
 
+/// A step of beta with what the search found on the way.
 struct Transition {
-  double step = 0.0;  ///< dbeta
-  TransitionStatus status = TransitionStatus::solved;
-  double effective_sample_size = 0.0;     ///< at the step; 0 where no step was found
+  double step = 0.0;                                   ///< dbeta
+  TransitionStatus status = TransitionStatus::solved;  ///< how the search ended
+  double effective_sample_size = 0.0;                  ///< at the step; 0 where no step was found
   double coefficient_of_variation = 0.0;  ///< at the step, with the criterion's deviation and count
   double bracket_low = 0.0;               ///< final bracket of the root
-  double bracket_high = 0.0;
-  int evaluations = 0;  ///< evaluations of all weights
+  double bracket_high = 0.0;              ///< the larger end; both 0 where there was no search
+  int evaluations = 0;                    ///< evaluations of all weights
 };
 
 /// The largest step in (0, remaining] that keeps the criterion: `remaining` itself if it does, else the root,

@@ -7,8 +7,15 @@
 #include <span>
 #include <stdexcept>
 
+#ifdef TMCMC_EIGEN_MEMORY  // set for users of an installed library
+static_assert(TMCMC_EIGEN_MEMORY == EIGEN_DEFAULT_ALIGN_BYTES + EIGEN_MALLOC_ALREADY_ALIGNED,
+              "tmcmc was compiled for another instruction set or sanitizer than this file, so that Eigen's "
+              "memory cannot pass between them: give both the same -m and -fsanitize flags");
+#endif
+
 namespace tmcmc {
 
+/// Signed size of Eigen: rows, columns and counts.
 using Index = Eigen::Index;
 
 /// One row a sample, one column a parameter.
@@ -20,6 +27,7 @@ using Population = Eigen::MatrixXd;
 using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                          Eigen::Ref<Eigen::VectorXd> log_likelihood)>;
 
+/// One number a sample, read only.
 using ConstDoubles = std::span<const double>;
 
 /// A run that cannot go on: no feasible draw, a criterion that no step meets, a NaN likelihood.
@@ -34,6 +42,7 @@ class InfeasiblePriorError : public SamplingError {
   using SamplingError::SamplingError;
 };
 
+/// The entries of a vector, which stays referred to.
 [[nodiscard]] inline ConstDoubles as_span(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
