@@ -11,7 +11,8 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs clean
+.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs \
+  sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
 .SECONDARY:
 
 help:
@@ -24,6 +25,11 @@ help:
 	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
 	@echo 'make test      build and run the tests'
 	@echo 'make verify    check the manifest; regenerate everything into build/verify and compare with the committed files'
+	@echo 'make check-manifest  the committed files against the hashes of the manifest, in a second'
+	@echo 'make sanitize  the whole test suite with the address, undefined-behaviour (g++) and thread sanitizers (clang++)'
+	@echo 'make tidy      clang-tidy over src, experiments and bench'
+	@echo 'make coverage  lines of src/ that the tests run'
+	@echo 'make mutations deliberate faults in src/, and which test sees each (half an hour)'
 	@echo 'make another-seed  replicated studies with SEED=2, and whether every verdict is the same'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
@@ -38,10 +44,11 @@ help:
 PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
   catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
   texlive-latex-recommended texlive-fonts-recommended
-DOC_PACKAGES := doxygen
 
-doc-deps: PACKAGES := $(DOC_PACKAGES)
-deps doc-deps:
+doc-deps: PACKAGES := doxygen
+sanitize-deps: PACKAGES := clang clang-tidy libomp-dev
+coverage-deps: PACKAGES := gcovr
+deps doc-deps sanitize-deps coverage-deps:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -268,9 +275,11 @@ test: $(BUILD)/.built
 	cmake --build --preset release
 	ctest --preset release
 
-# First the hashes of the manifest, then everything made again; each file that differs is named with the first difference.
-verify: build
+check-manifest:
 	tools/check_manifest $(GEN)/manifest.csv
+
+# First the hashes of the manifest, then everything made again; each file that differs is named with the first difference.
+verify: build check-manifest
 	rm -rf build/verify
 	$(MAKE) --no-print-directory GEN=build/verify/data/generated FIG=build/verify/figures \
 	  PAPER=build/verify/paper results figures paper
@@ -298,6 +307,26 @@ scaling: $(BIN)/scaling
 	@mkdir -p $(SCALING)
 	$< --output $(SCALING)/scaling.csv
 	figures/draw scaling $(SCALING) $(SCALING)
+
+# Two compilers, debug builds with assertions, warnings as errors.
+sanitize: | sanitize-deps
+	for preset in asan-ubsan tsan; do \
+	  cmake --preset $$preset >build/$$preset.configure.log 2>&1 || { cat build/$$preset.configure.log; exit 1; }; \
+	  cmake --build --preset $$preset && ctest --preset $$preset -j $$(nproc) || exit 1; done
+
+tidy: | sanitize-deps
+	cmake --preset tsan >/dev/null
+	run-clang-tidy -quiet -p build/tsan '/(src|experiments|bench)/.*\.cpp$$' 2>&1 | tools/tidy_report
+
+coverage: | coverage-deps
+	cmake --preset coverage >/dev/null
+	cmake --build --preset coverage
+	find build/coverage -name '*.gcda' -delete
+	ctest --preset coverage -j $$(nproc)
+	gcovr --root . --object-directory build/coverage --filter src/ --exclude-throw-branches --txt build/coverage/lines.txt --print-summary
+
+mutations: $(BUILD)/.built
+	tests/mutations/run
 
 identical: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	tools/identical_bytes
