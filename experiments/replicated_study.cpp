@@ -4,6 +4,7 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 
+#include "archive/settings.hpp"
 #include "inputs.hpp"
 #include "io/journal.hpp"
 #include "study/replication.hpp"
@@ -40,16 +41,10 @@ std::string key(const study::Reading& reading, const std::vector<study::Arm>& ar
   std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", COMPANION_VERSION,
                                  first_study, options.runs, options.seed);
   for (const auto& arm : arms) {
-    const auto& s = arm.options;
-    text += fmt::format(" | {} {} {} {} {} {} {} {} {} {} {} {} {}", arm.name, s.samples,
-                        static_cast<int>(s.criterion.kind), s.criterion.target,
-                        static_cast<int>(s.criterion.deviation), static_cast<int>(s.criterion.counted),
-                        static_cast<int>(s.move), s.move_steps, s.proposal_scale, static_cast<int>(s.centre),
-                        static_cast<int>(s.boundary), s.max_stages, s.minimum_step);
-    text += fmt::format(" {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(s.resampling), s.chains,
-                        s.mixing_correlation, s.max_move_steps, static_cast<int>(s.scale_rule),
-                        s.target_acceptance, static_cast<int>(s.coordinates), s.random_subsets,
-                        s.independent_fraction, s.cross_fit, s.evaluation_budget);
+    text += fmt::format(" | {}", arm.name);
+    for (const auto& [name, value] : archive::settings(arm.options)) {
+      text += fmt::format(" {}={}", name, value);
+    }
   }
   text +=
       fmt::format(" | {} {} {} {}", reading.physics.driving_force_n, static_cast<int>(reading.physics.limit),
