@@ -7,6 +7,7 @@
 #include "archive/settings.hpp"
 #include "inputs.hpp"
 #include "io/journal.hpp"
+#include "io/signals.hpp"
 #include "study/replication.hpp"
 
 using namespace experiments;
@@ -112,17 +113,33 @@ int main(int argc, char** argv) {
     const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     auto options = run_options.study_options();
 
+    std::optional<io::OutputFile> stream;
     std::optional<io::Journal> journal;
     std::vector<std::string> rows;
-    if (!program.output().empty() && program.output() != "-") {
+    if (!program.output().empty()) {
+      stream.emplace(program.output());  // a path that cannot be written is refused before the work
+    }
+    if (stream && !stream->in_place()) {
+      stream.reset();
       journal.emplace(program.output(), key(reading, arms, options, first_study, observations, prior));
       rows = journal->rows();
       rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
       journal->truncate(rows.size());
+      if (journal->was_damaged()) {
+        program.report("{}: damaged rows are made again\n", journal->path().string());
+      }
       if (!rows.empty()) {
         program.report("{} studies were done before\n", rows.size() / arms.size());
       }
     }
+    const auto say_what_is_kept = [&] {
+      if (journal) {
+        io::set_interruption_note(
+            fmt::format("{} of {} studies kept in {}, run the same command again to go on",
+                        rows.size() / arms.size(), studies, journal->path().string()));
+      }
+    };
+    say_what_is_kept();
     const auto done = static_cast<long>(rows.size() / arms.size());
     io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
     for (long i = done; i < studies; ++i) {
@@ -135,15 +152,16 @@ int main(int argc, char** argv) {
         journal->append(added);
       }
       rows.insert(rows.end(), added.begin(), added.end());
+      say_what_is_kept();
       progress.advance();
     }
     if (journal) {
       journal->finish(first_study == 0 ? header() : "");
-    } else if (program.output() == "-") {
-      io::OutputFile file("-");
-      file.write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
-                             fmt::join(rows, "\n")));
-      file.commit();
+      io::set_interruption_note("");
+    } else if (stream) {
+      stream->write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
+                                fmt::join(rows, "\n")));
+      stream->commit();
     }
     program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
                    physics.reading_name);
