@@ -90,7 +90,6 @@ for e in $(executables); do
   "$bin/$e" --help >"help/$e"
   needs[$e]=$(small_options "$e")
 done
-bin=$(realpath "$bin")
 snapshot >../before.$$
 
 while IFS=$'\t' read -r error status command message; do
