@@ -31,6 +31,11 @@ Program::Program(const std::string& name, const std::string& purpose) : app_(pur
   app_.add_flag("--quiet", quiet_, "Print no report and show no progress");
 }
 
+Program::Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks)
+    : Program(name, purpose) {
+  ranks_ = &ranks;
+}
+
 void Program::add_output(const std::string& description) {
   app_.add_option("--output", output_,
                   description + "; '-' is standard output. Without it no file is written")
@@ -43,7 +48,9 @@ void Program::add_file_output(const std::string& option, std::string& path, cons
 
 int Program::run(int argc, char** argv, const std::function<void()>& body) {
   const auto fail = [&](int status, const std::string& message) {
-    fmt::print(stderr, "{}: error: {}\n", app_.get_name(), message);
+    if (ranks_ == nullptr || ranks_->reports_failure()) {
+      fmt::print(stderr, "{}: error: {}\n", app_.get_name(), message);
+    }
     return status;
   };
   io::remove_partial_files_on_signals();
@@ -51,7 +58,9 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
     app_.parse(argc, argv);
     body();
   } catch (const CLI::Success& request) {  // --help, --version
-    app_.exit(request);
+    if (leads()) {
+      app_.exit(request);
+    }
   } catch (const CLI::ParseError& error) {
     std::string message = first_line(error.what());
     const auto named = message.find(": --");  // CLI11 puts the option in front of a check's own message
