@@ -33,6 +33,11 @@ Program::Program(const std::string& name, const std::string& purpose) : app_(pur
       ->configurable(false);
 }
 
+Program::Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks)
+    : Program(name, purpose) {
+  ranks_ = &ranks;
+}
+
 void Program::add_output(const std::string& description) {
   app_.add_option("--output", output_,
                   description + "; '-' is standard output. Without it no file is written")
@@ -45,7 +50,9 @@ void Program::add_file_output(const std::string& option, std::string& path, cons
 
 int Program::run(int argc, char** argv, const std::function<void()>& body) {
   const auto fail = [&](int status, const std::string& message) {
-    fmt::print(stderr, "{}: error: {}\n", app_.get_name(), message);
+    if (ranks_ == nullptr || ranks_->reports_failure()) {
+      fmt::print(stderr, "{}: error: {}\n", app_.get_name(), message);
+    }
     return status;
   };
   io::end_cleanly_on_signals(app_.get_name());
@@ -57,7 +64,9 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
       body();
     }
   } catch (const CLI::Success& request) {  // --help, --version
-    app_.exit(request);
+    if (leads()) {
+      app_.exit(request);
+    }
   } catch (const CLI::ParseError& error) {
     std::string message = first_line(error.what());
     const auto named = message.find(": --");  // CLI11 puts the option in front of a check's own message

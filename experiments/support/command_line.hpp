@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "distributed/ranks.hpp"
 #include "io/csv.hpp"
 #include "io/progress.hpp"
 #include "study/reading.hpp"
@@ -23,6 +24,9 @@ namespace experiments {
 class Program {
  public:
   Program(const std::string& name, const std::string& purpose);
+
+  /// For a program that mpirun may start as several ranks, which share out its work: one of them speaks.
+  Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks);
 
   CLI::App& app() { return app_; }
 
@@ -41,16 +45,19 @@ class Program {
   /// Part of the report, to stdout (to stderr if stdout carries a CSV); nothing with --quiet.
   template <class... Args>
   void report(fmt::format_string<Args...> format, Args&&... args) const {
-    if (!quiet_) {
+    if (!quiet_ && leads()) {
       fmt::print(output_ == "-" ? stderr : stdout, format, std::forward<Args>(args)...);
     }
   }
 
  private:
+  [[nodiscard]] bool leads() const { return ranks_ == nullptr || ranks_->rank() == 0; }
+
   CLI::App app_;
   std::string output_;
   bool quiet_ = false;
   bool show_options_ = false;
+  distributed::Ranks* ranks_ = nullptr;
 };
 
 /// The CSV file of an optional output; none if the path is empty.
