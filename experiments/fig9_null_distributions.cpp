@@ -30,20 +30,12 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     const auto studies = read_studies(replicated);
     const auto printed = read_printed_tables(table3, table4);
+    auto csv = open_csv(program.output(), {"sampler", "parameter", "area", "cumulative"});
+    auto counts_csv =
+        open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});
+    auto printed_csv = open_csv(printed_output, {"sampler", "parameter", "printed", "low", "high", "p"});
     const auto verdicts =
         study::judge_tables(studies, printed.areas, printed.counts, null_of(studies, printed));
-    std::optional<io::CsvWriter> csv, counts_csv, printed_csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(), std::vector<std::string>{"sampler", "parameter", "area", "cumulative"});
-    }
-    if (!counts_output.empty()) {
-      counts_csv.emplace(counts_output, std::vector<std::string>{"sampler", "iterations", "runs",
-                                                                 "share_of_studies", "printed"});
-    }
-    if (!printed_output.empty()) {
-      printed_csv.emplace(printed_output,
-                          std::vector<std::string>{"sampler", "parameter", "printed", "low", "high", "p"});
-    }
     for (const auto& v : verdicts.areas) {
       const auto& parameter = parameter_columns[v.parameter];
       program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",

@@ -4,8 +4,10 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 
+#include "archive/settings.hpp"
 #include "inputs.hpp"
 #include "io/journal.hpp"
+#include "io/signals.hpp"
 #include "study/replication.hpp"
 
 using namespace experiments;
@@ -40,16 +42,10 @@ std::string key(const study::Reading& reading, const std::vector<study::Arm>& ar
   std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", COMPANION_VERSION,
                                  first_study, options.runs, options.seed);
   for (const auto& arm : arms) {
-    const auto& s = arm.options;
-    text += fmt::format(" | {} {} {} {} {} {} {} {} {} {} {} {} {}", arm.name, s.samples,
-                        static_cast<int>(s.criterion.kind), s.criterion.target,
-                        static_cast<int>(s.criterion.deviation), static_cast<int>(s.criterion.counted),
-                        static_cast<int>(s.move), s.move_steps, s.proposal_scale, static_cast<int>(s.centre),
-                        static_cast<int>(s.boundary), s.max_stages, s.minimum_step);
-    text += fmt::format(" {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(s.resampling), s.chains,
-                        s.mixing_correlation, s.max_move_steps, static_cast<int>(s.scale_rule),
-                        s.target_acceptance, static_cast<int>(s.coordinates), s.random_subsets,
-                        s.independent_fraction, s.cross_fit, s.evaluation_budget);
+    text += fmt::format(" | {}", arm.name);
+    for (const auto& [name, value] : archive::settings(arm.options)) {
+      text += fmt::format(" {}={}", name, value);
+    }
   }
   text +=
       fmt::format(" | {} {} {} {}", reading.physics.driving_force_n, static_cast<int>(reading.physics.limit),
@@ -117,17 +113,33 @@ int main(int argc, char** argv) {
     const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     auto options = run_options.study_options();
 
+    std::optional<io::OutputFile> stream;
     std::optional<io::Journal> journal;
     std::vector<std::string> rows;
-    if (!program.output().empty() && program.output() != "-") {
+    if (!program.output().empty()) {
+      stream.emplace(program.output());  // a path that cannot be written is refused before the work
+    }
+    if (stream && !stream->in_place()) {
+      stream.reset();
       journal.emplace(program.output(), key(reading, arms, options, first_study, observations, prior));
       rows = journal->rows();
       rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
       journal->truncate(rows.size());
+      if (journal->was_damaged()) {
+        program.report("{}: damaged rows are made again\n", journal->path().string());
+      }
       if (!rows.empty()) {
         program.report("{} studies were done before\n", rows.size() / arms.size());
       }
     }
+    const auto say_what_is_kept = [&] {
+      if (journal) {
+        io::set_interruption_note(
+            fmt::format("{} of {} studies kept in {}, run the same command again to go on",
+                        rows.size() / arms.size(), studies, journal->path().string()));
+      }
+    };
+    say_what_is_kept();
     const auto done = static_cast<long>(rows.size() / arms.size());
     io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
     for (long i = done; i < studies; ++i) {
@@ -140,15 +152,16 @@ int main(int argc, char** argv) {
         journal->append(added);
       }
       rows.insert(rows.end(), added.begin(), added.end());
+      say_what_is_kept();
       progress.advance();
     }
     if (journal) {
       journal->finish(first_study == 0 ? header() : "");
-    } else if (program.output() == "-") {
-      io::OutputFile file("-");
-      file.write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
-                             fmt::join(rows, "\n")));
-      file.commit();
+      io::set_interruption_note("");
+    } else if (stream) {
+      stream->write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
+                                fmt::join(rows, "\n")));
+      stream->commit();
     }
     program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
                    physics.reading_name);

@@ -25,8 +25,8 @@ struct Judged {
 
 void write_contrast(io::CsvWriter& csv, const char* quantity, const char* statistic,
                     const study::ContrastVerdict& c) {
-  csv.row(quantity, statistic, c.printed, c.interval.low, c.interval.high, c.p.value, c.p.standard_error, c.replicated.ratio,
-          c.replicated.interval.low, c.replicated.interval.high, c.replicated.margin);
+  csv.row(quantity, statistic, c.printed, c.interval.low, c.interval.high, c.p.value, c.p.standard_error,
+          c.replicated.ratio, c.replicated.interval.low, c.replicated.interval.high, c.replicated.margin);
 }
 
 Judged judge_contrast(const study::ContrastVerdict& c, const char* what) {
@@ -121,9 +121,24 @@ int main(int argc, char** argv) {
     const auto studies = read_studies(replicated);
     const auto printed = read_printed_tables(table3, table4);
     const auto observations = read_observations(inputs.observations);
+    const auto prior = prior_for(inputs, reading);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (ids[i].size() != 2 || ids[i][0] != 'C' || ids[i][1] < '1' || ids[i][1] > '9') {
+        claim_table.fail(i, "id", "one of C1 to C9");
+      }
+    }
     if (printed.counts.size() != 2 || printed.areas.size() != 4) {
       throw io::InputError(table4 + ": expected the columns of two samplers, and table 3 two rows");
     }
+    auto csv = open_csv(program.output(), {"id", "place", "claim", "number", "verdict", "evidence"});
+    auto contrasts =
+        open_csv(contrasts_output, {"quantity", "statistic", "printed", "null_low", "null_high", "p",
+                                    "p_standard_error", "ratio", "ratio_low", "ratio_high", "margin"});
+    std::optional<io::OutputFile> markdown_file;
+    if (!markdown_output.empty()) {
+      markdown_file.emplace(markdown_output);
+    }
+
     const std::string& first = printed.counts[0].sampler;
     const std::string& second = printed.counts[1].sampler;
     const auto ratio = [&](std::size_t at) {
@@ -136,7 +151,7 @@ int main(int argc, char** argv) {
     const auto audit = study::audit(observations, stated, alternative_force_n, reading.physics);
 
     const friction::Likelihood likelihood(observations, reading.physics);
-    const auto exact = exact_posterior_for(inputs, likelihood, prior_for(inputs, reading));
+    const auto exact = exact_posterior_for(inputs, likelihood, prior);
     const double exceedance = exact.marginal(friction::friction_force).exceedance(stated.friction_force_n);
 
     const auto judge = [&](const std::string& id) -> Judged {
@@ -177,13 +192,6 @@ int main(int argc, char** argv) {
               "the paper shows neither; see Figure 5 and Table 5 here"};
     };
 
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"id", "place", "claim", "number", "verdict", "evidence"});
-    }
-    auto contrasts = open_csv(contrasts_output, {"quantity", "statistic", "printed", "null_low", "null_high",
-                                                 "p", "p_standard_error", "ratio", "ratio_low", "ratio_high", "margin"});
     std::string markdown = "| | claim | number | verdict on the claim | evidence |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const Judged judged = judge(ids[i]);
@@ -204,10 +212,9 @@ int main(int argc, char** argv) {
       write_contrast(*contrasts, "iterations", "two-sample deviance", iterations);
       contrasts->commit();
     }
-    if (!markdown_output.empty()) {
-      io::OutputFile file(markdown_output);
-      file.write(markdown);
-      file.commit();
+    if (markdown_file) {
+      markdown_file->write(markdown);
+      markdown_file->commit();
     }
   });
 }

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "io/partial_files.hpp"
+#include "io/signals.hpp"
 #include "option_checks.hpp"
 
 namespace experiments {
@@ -48,7 +48,7 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
     fmt::print(stderr, "{}: error: {}\n", app_.get_name(), message);
     return status;
   };
-  io::remove_partial_files_on_signals();
+  io::end_cleanly_on_signals(app_.get_name());
   try {
     app_.parse(argc, argv);
     if (show_options_) {

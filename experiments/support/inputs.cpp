@@ -11,8 +11,16 @@ namespace experiments {
 
 namespace {
 
-constexpr std::array<const char*, friction::parameter_count> prior_rows = {
-    "friction_force", "natural_frequency", "phase_noise", "frequency_ratio_noise"};
+const std::vector<std::string> prior_rows = {"friction_force", "natural_frequency", "phase_noise",
+                                             "frequency_ratio_noise"};
+
+std::string in_directory(const char* directory, const std::string& file) {
+  const std::filesystem::path here = std::filesystem::path("data") / directory / file;
+  std::error_code ignored;
+  return std::filesystem::exists(here, ignored)
+             ? here.string()
+             : (std::filesystem::path(COMPANION_SOURCE_DIR) / here).string();
+}
 
 std::vector<double> positive_numbers(const io::CsvTable& table, const char* column) {
   std::vector<double> values = table.numbers(column);
@@ -42,11 +50,11 @@ void InputFiles::add_prior_to(CLI::App& app) {
 }
 
 std::string published(const std::string& file) {
-  const std::filesystem::path here = std::filesystem::path("data") / "published" / file;
-  std::error_code ignored;
-  return std::filesystem::exists(here, ignored)
-             ? here.string()
-             : (std::filesystem::path(COMPANION_SOURCE_DIR) / here).string();
+  return in_directory("published", file);
+}
+
+std::string example(const std::string& file) {
+  return in_directory("examples", file);
 }
 
 friction::Observations read_observations(const std::string& path) {
@@ -72,20 +80,26 @@ friction::Observations read_observations(const std::string& path) {
 }
 
 tmcmc::BoxPrior read_prior(const std::string& path) {
+  return read_prior(path, prior_rows);
+}
+
+tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::string>& expected) {
   const auto table = io::CsvTable::read(path);
   table.require_columns({"parameter", "lower", "upper"});
   const auto names = table.text("parameter");
   const auto lower = table.numbers("lower");
   const auto upper = table.numbers("upper");
-  std::array<bool, prior_rows.size()> seen{};
-  Eigen::VectorXd low(friction::parameter_count);
-  Eigen::VectorXd high(friction::parameter_count);
+  std::vector<bool> seen(expected.size(), false);
+  Eigen::VectorXd low(static_cast<Eigen::Index>(expected.size()));
+  Eigen::VectorXd high = low;
   for (std::size_t row = 0; row < names.size(); ++row) {
-    const auto found = std::find(prior_rows.begin(), prior_rows.end(), names[row]);
-    if (found == prior_rows.end()) {
-      table.fail(row, "parameter", "friction_force, natural_frequency, phase_noise or frequency_ratio_noise");
+    const auto found = std::find(expected.begin(), expected.end(), names[row]);
+    if (found == expected.end()) {
+      table.fail(
+          row, "parameter",
+          fmt::format("{} or {}", fmt::join(expected.begin(), expected.end() - 1, ", "), expected.back()));
     }
-    const auto j = static_cast<std::size_t>(found - prior_rows.begin());
+    const auto j = static_cast<std::size_t>(found - expected.begin());
     if (seen[j]) {
       table.fail(row, "parameter", "each parameter once");
     }
@@ -101,10 +115,8 @@ tmcmc::BoxPrior read_prior(const std::string& path) {
   }
   for (std::size_t j = 0; j < seen.size(); ++j) {
     if (!seen[j]) {
-      throw io::InputError(
-          fmt::format("{}: column 'parameter': no row '{}': expected one row for each of "
-                      "friction_force, natural_frequency, phase_noise, frequency_ratio_noise",
-                      path, prior_rows[j]));
+      throw io::InputError(fmt::format("{}: column 'parameter': no row '{}': expected one row for each of {}",
+                                       path, expected[j], fmt::join(expected, ", ")));
     }
   }
   return {low, high};

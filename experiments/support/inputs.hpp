@@ -29,6 +29,9 @@ struct InputFiles {
 /// Path of a file in data/published/ of the current directory, or else of the source tree.
 [[nodiscard]] std::string published(const std::string& file);
 
+/// The same of data/examples/.
+[[nodiscard]] std::string example(const std::string& file);
+
 /// Measurements in the columns of table1_observations.csv: r_nominal, r_measured, driving_frequency_hz,
 /// phase_deg. \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
@@ -36,6 +39,8 @@ struct InputFiles {
 /// Uniform prior in the form of table2_prior.csv: one row a parameter, columns parameter, lower, upper.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path);
+/// The same of parameters with other names, in their order; none may be negative.
+[[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::string>& names);
 
 /// The prior that the options ask for: a file of the user's as it stands; else Table 2 as the reading has it.
 [[nodiscard]] tmcmc::BoxPrior prior_for(const InputFiles& inputs, const study::Reading& reading);

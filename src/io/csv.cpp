@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t whole = std::string::npos;
 constexpr std::size_t read_chunk_bytes = std::size_t{1} << 18U;
+constexpr std::size_t largest_file_bytes = std::size_t{1} << 32U;
 
 std::string shown(const std::filesystem::path& path) {
   return printable(path.string(), whole);
@@ -25,6 +26,12 @@ std::string shown(const std::filesystem::path& path) {
 [[noreturn]] void fail_unreadable(const std::filesystem::path& path, int error) {
   throw InputError(fmt::format("{}: cannot be read: {}: expected a CSV file", shown(path),
                                std::generic_category().message(error)));
+}
+
+void require_size(const std::filesystem::path& path, std::size_t bytes) {
+  if (bytes <= largest_file_bytes) return;
+  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes", shown(path),
+                               bytes, largest_file_bytes));
 }
 
 class ReadDescriptor {
@@ -48,7 +55,10 @@ std::string read_all(const std::filesystem::path& path) {
   if (::fstat(file.get(), &status) != 0) fail_unreadable(path, errno);
   if (S_ISDIR(status.st_mode)) fail_unreadable(path, EISDIR);
   std::string text;
-  if (status.st_size > 0) text.reserve(static_cast<std::size_t>(status.st_size) + read_chunk_bytes);
+  if (status.st_size > 0) {
+    require_size(path, static_cast<std::size_t>(status.st_size));
+    text.reserve(static_cast<std::size_t>(status.st_size) + read_chunk_bytes);
+  }
   for (;;) {
     const std::size_t old_size = text.size();
     text.resize(old_size + read_chunk_bytes);
@@ -56,13 +66,9 @@ std::string read_all(const std::filesystem::path& path) {
     if (got < 0 && errno != EINTR) fail_unreadable(path, errno);
     text.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     if (got == 0) return text;
-    // Looked for here, so that an endless source of zeros is refused as well.
-    const std::size_t nul = text.find('\0', old_size);
-    if (nul != whole) {
-      const auto newlines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
-      throw InputError(fmt::format("{}:{}: value '\\x00': expected UTF-8 text without NUL bytes", shown(path),
-                                   newlines + 1));
-    }
+    require_size(path, text.size());
+    // The parser refuses the byte with its place; what follows is not read, for a source of zeros has no end.
+    if (text.find('\0', old_size) != whole) return text;
   }
 }
 
@@ -90,12 +96,14 @@ std::string_view parse_value(std::string_view text, Value& value, std::string_vi
 }
 
 std::string_view parse_any_double(std::string_view text, double& value) {
+  if (text.find(',') != whole) return "a number with a decimal point, not a comma";
   constexpr std::string_view expected = "a number, nan or inf";
   if (text.find('(') != whole) return expected;  // nan(payload)
   return parse_value(text, value, expected, "a number within the range of a double");
 }
 
 std::string_view parse_finite(std::string_view text, double& value) {
+  if (text.find(',') != whole) return "a finite number with a decimal point, not a comma";
   constexpr std::string_view expected = "a finite number";
   const std::string_view complaint =
       parse_value(text, value, expected, "a finite number within the range of a double");
@@ -118,15 +126,17 @@ CsvTable CsvTable::read(const std::filesystem::path& path) {
 
 void CsvTable::parse() {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"}) {
+    if (buffer_.starts_with(mark)) {
+      throw InputError(fmt::format("{}:1: column 1: value '{}': expected UTF-8 text, not UTF-16",
+                                   shown(path_), printable(mark)));
+    }
+  }
   std::size_t begin = buffer_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   for (std::size_t line = 1; begin < buffer_.size(); ++line) {
     const std::size_t newline = std::min(buffer_.find('\n', begin), buffer_.size());
     const std::size_t end = newline > begin && buffer_[newline - 1] == '\r' ? newline - 1 : newline;
     const std::string_view text = view({begin, end - begin});
-    if (text.find('\r') != whole) {
-      throw InputError(fmt::format("{}:{}: value '{}': expected lines that end in LF or CRLF", shown(path_),
-                                   line, printable(text)));
-    }
     const bool blank = std::all_of(text.begin(), text.end(), is_blank);
     if (!blank && names_.empty()) {
       parse_header(begin, end, line);
@@ -136,9 +146,10 @@ void CsvTable::parse() {
     }
     begin = newline + 1;
   }
-  if (names_.empty()) throw InputError(fmt::format("{}: empty file: expected a header line", shown(path_)));
+  if (names_.empty()) throw InputError(fmt::format("{}:1: empty file: expected a header line", shown(path_)));
   if (lines_.empty()) {
-    throw InputError(fmt::format("{}: no rows: expected at least one row after the header", shown(path_)));
+    throw InputError(fmt::format("{}:{}: no rows: expected at least one row after the header", shown(path_),
+                                 header_line_));
   }
 }
 
@@ -191,6 +202,11 @@ void CsvTable::parse_line(std::size_t begin, std::size_t end, std::size_t line, 
   const auto value_of = [&](std::size_t from, std::size_t to) {
     return fmt::format("value '{}'", printable(view({from, to - from})));
   };
+  const auto require_text = [&](std::size_t from, std::size_t to) {
+    const std::string_view text = view({from, to - from});
+    if (text.find('\0') != whole) complain(value_of(from, to), "UTF-8 text without NUL bytes");
+    if (text.find('\r') != whole) complain(value_of(from, to), "lines that end in LF or CRLF");
+  };
   std::size_t position = begin;
   for (;; ++position) {
     std::size_t start = position;
@@ -198,6 +214,7 @@ void CsvTable::parse_line(std::size_t begin, std::size_t end, std::size_t line, 
     Cell cell{start, 0};
     if (start < end && buffer_[start] == '"') {
       const std::size_t close = closing_quote(start, end);
+      require_text(start, close);
       if (close == end) complain(value_of(start, end), "a closing quote on the same line");
       position = close + 1;
       while (position < end && is_blank(buffer_[position])) ++position;
@@ -212,6 +229,7 @@ void CsvTable::parse_line(std::size_t begin, std::size_t end, std::size_t line, 
       position = start + std::min(view({start, end - start}).find(','), end - start);
       std::size_t stop = position;
       while (stop > start && is_blank(buffer_[stop - 1])) --stop;
+      require_text(start, stop);
       cell.size = stop - start;
       if (view(cell).find('"') != whole) complain(value_of(start, stop), "quotes around the whole cell");
     }

@@ -23,11 +23,15 @@ namespace io {
 /// Every complaint about the file is an InputError of one line, such as
 ///
 ///     data/x.csv:4: column 'phase_deg': value 'abc': expected a finite number
+///
+/// that begins with file and line and, where a cell is to blame, its column: by name, or by number in the header and
+/// beyond it. Files that cannot be read or have more than 4 GiB have no line to name.
 class CsvTable {
  public:
   /// Reads the whole file. Throws InputError if it cannot be read, has no header or no row, if a column name
   /// is empty or repeated, if a row has not as many cells as the header, if a quote is not closed or stands
-  /// inside an unquoted cell, or if the file holds NUL bytes or is separated by semicolons or tabs.
+  /// inside an unquoted cell, or if the file is UTF-16, holds NUL bytes or a CR without LF, is separated by
+  /// semicolons or tabs, or has more than 4 GiB.
   static CsvTable read(const std::filesystem::path& path);
 
   /// The path as given to read().
@@ -52,7 +56,7 @@ class CsvTable {
 
   /// A whole column, one element a row. Each throws InputError if there is no such column or a cell does not
   /// fit. Numbers are decimal, correctly rounded, and may carry a sign; a magnitude that a double cannot hold
-  /// (1e400, 1e-400) and hexadecimal digits are refused.
+  /// (1e400, 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
   std::vector<double> numbers(std::string_view column) const;         ///< finite numbers only
   std::vector<double> numbers_or_nan(std::string_view column) const;  ///< nan, inf and -inf too, in any case
   std::vector<long> integers(std::string_view column) const;          ///< no point and no exponent

@@ -30,7 +30,9 @@ void append_number(std::string& out, double value) {
 
 bool needs_quotes(std::string_view text) {
   constexpr std::string_view blanks = " \t";
-  return text.empty() || text.find_first_of(",;\"\r\n") != std::string_view::npos ||
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // dropped where it starts the file
+  return text.empty() || text.starts_with(byte_order_mark) ||
+         text.find_first_of(",;\"\r\n") != std::string_view::npos ||
          blanks.find(text.front()) != std::string_view::npos ||
          blanks.find(text.back()) != std::string_view::npos;
 }

@@ -113,6 +113,7 @@ void OutputFile::open_partial() {
     if (fd_ >= 0) partial_ = candidate;
   }
   slot_ = partial_files::add(partial_.c_str());
+  in_place_ = false;
 
   if (exists && ::fchmod(fd_, mode) != 0) {
     const int error = errno;

@@ -37,6 +37,9 @@ class OutputFile {
   /// The path as given.
   const std::filesystem::path& path() const noexcept { return path_; }
 
+  /// Whether the path is a descriptor, device or pipe, which is written in place, so that nothing can be put beside it.
+  bool in_place() const noexcept { return in_place_; }
+
  private:
   void open_descriptor(int descriptor);
   void open_in_place();
@@ -53,12 +56,8 @@ class OutputFile {
   int slot_ = -1;
   int fd_ = -1;
   bool is_stdout_ = false;
+  bool in_place_ = true;
   std::string buffer_;
 };
-
-/// From here on a signal that ends the process (SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ) first
-/// removes the temporary files of all live OutputFiles, then ends it as it would have. Signals that are
-/// ignored stay ignored. Covers up to 64 temporary files at a time; call it once, early in main.
-void remove_partial_files_on_signals();
 
 }  // namespace io

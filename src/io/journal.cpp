@@ -3,12 +3,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
+#include <boost/crc.hpp>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "io/errors.hpp"
 #include "io/files.hpp"
@@ -17,68 +17,91 @@ namespace io {
 
 namespace {
 
+constexpr std::size_t checksum_size = 9;  // a tab and eight digits
+
+std::string shown(const std::filesystem::path& path) {
+  return printable(path.string(), std::string::npos);
+}
+
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw OutputError(
-      fmt::format("{}: {}: expected a journal that can be written", path.string(), std::strerror(error)));
+  throw OutputError(fmt::format("{}: cannot be written: {}: expected a journal that can be written",
+                                shown(path), std::generic_category().message(error)));
 }
 
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& output, const std::string& key)
     : output_(output), path_(output.string() + ".journal"), key_(key) {
-  fd_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (fd_ < 0) {
+  open();
+  read_lines();
+}
+
+void Journal::open() {
+  file_.fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file_.fd < 0) {
     fail(path_, errno);
   }
-  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(fd_);
-    throw InputError(fmt::format("{}: in use by another process: expected to be alone", path_.string()));
+  if (::flock(file_.fd, LOCK_EX | LOCK_NB) != 0) {
+    throw InputError(fmt::format("{}: in use by another process: expected to be alone", shown(path_)));
   }
+}
+
+void Journal::read_lines() {
   std::ifstream file(path_, std::ios::binary);
   std::ostringstream content;
   content << file.rdbuf();
   const std::string text = content.str();
-  std::size_t at = 0;
-  std::vector<std::string> lines;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', at)) {
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  if (lines.empty()) {
-    if (::ftruncate(fd_, 0) != 0) {
-      fail(path_, errno);
+  std::size_t begin = 0;
+  bool has_key = false;
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+    const std::size_t size = end - begin;
+    std::string row = text.substr(begin, size < checksum_size ? 0 : size - checksum_size);
+    const bool intact = text.compare(begin, size + 1, line(row)) == 0;
+    if (!has_key && (!intact || row != key_)) {
+      throw InputError(
+          fmt::format("{}:1: made with other inputs or options, or damaged: expected the same, or no journal "
+                      "(delete it to "
+                      "start again)",
+                      shown(path_)));
     }
-    write(key_ + "\n");
-    return;
+    if (!intact) {
+      was_damaged_ = true;
+      break;
+    }
+    if (has_key) {
+      rows_.push_back(std::move(row));
+    }
+    has_key = true;
+    begin = end + 1;
   }
-  if (lines.front() != key_) {
-    ::close(fd_);
-    throw InputError(
-        fmt::format("{}: made with other inputs or options: expected the same, or no journal (delete it to "
-                    "start again)",
-                    path_.string()));
+  cut_to(begin);
+  if (!has_key) {
+    write(line(key_));
   }
-  if (at < text.size() && ::ftruncate(fd_, static_cast<off_t>(at)) != 0) {
-    fail(path_, errno);
-  }
-  rows_.assign(lines.begin() + 1, lines.end());
 }
 
-Journal::~Journal() {
-  if (fd_ >= 0) {
-    ::close(fd_);
-  }
+std::string Journal::line(std::string_view text) const {
+  boost::crc_32_type crc;
+  crc.process_bytes(key_.data(), key_.size());
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("{}\t{:08x}\n", text, crc.checksum());
 }
 
 void Journal::write(std::string_view text) {
   while (!text.empty()) {
-    const ssize_t written = ::write(fd_, text.data(), text.size());
+    const ssize_t written = ::write(file_.fd, text.data(), text.size());
     if (written < 0 && errno != EINTR) {
       fail(path_, errno);
     }
     text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
   }
-  if (::fsync(fd_) != 0 && errno != EINVAL) {
+  if (::fsync(file_.fd) != 0 && errno != EINVAL) {
+    fail(path_, errno);
+  }
+}
+
+void Journal::cut_to(std::size_t size) {
+  if (::ftruncate(file_.fd, static_cast<off_t>(size)) != 0) {
     fail(path_, errno);
   }
 }
@@ -86,7 +109,7 @@ void Journal::write(std::string_view text) {
 void Journal::append(const std::vector<std::string>& rows) {
   std::string text;
   for (const std::string& row : rows) {
-    text += row + "\n";
+    text += line(row);
   }
   write(text);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
@@ -97,13 +120,11 @@ void Journal::truncate(std::size_t count) {
     return;
   }
   rows_.resize(count);
-  std::size_t size = key_.size() + 1;
+  std::size_t size = line(key_).size();
   for (const std::string& row : rows_) {
-    size += row.size() + 1;
+    size += row.size() + checksum_size + 1;
   }
-  if (::ftruncate(fd_, static_cast<off_t>(size)) != 0) {
-    fail(path_, errno);
-  }
+  cut_to(size);
 }
 
 void Journal::finish(std::string_view header) {

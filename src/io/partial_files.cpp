@@ -1,6 +1,5 @@
 #include "io/partial_files.hpp"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include <array>
@@ -8,10 +7,7 @@
 #include <climits>
 #include <cstring>
 
-#include "io/files.hpp"
-
-namespace io {
-namespace partial_files {
+namespace io::partial_files {
 namespace {
 
 enum State : int { free_slot, filling, live, claimed };
@@ -24,15 +20,6 @@ struct Slot {
 constexpr int slot_count = 64;
 std::array<Slot, slot_count> slots;
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler needs lock-free atomics");
-
-extern "C" void remove_all_and_die(int signal_number) {
-  for (Slot& slot : slots) {
-    int expected = live;
-    if (slot.state.compare_exchange_strong(expected, claimed)) ::unlink(slot.path);
-  }
-  // SA_RESETHAND has restored the default action; it is taken when this handler returns.
-  ::raise(signal_number);
-}
 
 }  // namespace
 
@@ -56,18 +43,11 @@ void remove(int slot) noexcept {
   slots[static_cast<std::size_t>(slot)].state.compare_exchange_strong(expected, free_slot);
 }
 
-}  // namespace partial_files
-
-void remove_partial_files_on_signals() {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ}) {
-    struct sigaction old {};
-    if (::sigaction(signal_number, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;
-    struct sigaction action {};
-    action.sa_handler = partial_files::remove_all_and_die;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigemptyset(&action.sa_mask);
-    ::sigaction(signal_number, &action, nullptr);
+void unlink_all() noexcept {
+  for (Slot& slot : slots) {
+    int expected = live;
+    if (slot.state.compare_exchange_strong(expected, claimed)) ::unlink(slot.path);
   }
 }
 
-}  // namespace io
+}  // namespace io::partial_files

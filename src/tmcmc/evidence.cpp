@@ -129,17 +129,17 @@ void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, std::span<cons
   log_weigh(before, step, largest, log_weights_before_);
   log_weigh(after, step, largest, log_weights_after_);
   const Bridge bridge = solve_bridge(log_weights_before_, log_weights_after_);
-  log_evidence_ += step * largest + (bridge.centre + bridge.log_size_ratio);
+  sums_.log_evidence += step * largest + (bridge.centre + bridge.log_size_ratio);
   const double n = static_cast<double>(before.size());
   const double m = static_cast<double>(after.size());
-  least_variance_ += std::max(1.0 / bridge.overlap - 1.0 / n - 1.0 / m, 0.0);
+  sums_.least_variance += std::max(1.0 / bridge.overlap - 1.0 / n - 1.0 / m, 0.0);
 
-  if (influence_.empty()) {  // each draw from the prior is a chain
-    influence_.emplace_back(before.size(), 0.0);
-    parents_.emplace_back();
+  if (sums_.influence.empty()) {  // each draw from the prior is a chain
+    sums_.influence.emplace_back(before.size(), 0.0);
+    sums_.parents.emplace_back();
   }
-  influence_.emplace_back(parents.size(), 0.0);
-  parents_.emplace_back(parents.begin(), parents.end());
+  sums_.influence.emplace_back(parents.size(), 0.0);
+  sums_.parents.emplace_back(parents.begin(), parents.end());
   const auto add_influence = [&](const std::vector<double>& log_weights, double sign,
                                  std::vector<double>& influence) {
     const double mean = 1.0 / static_cast<double>(log_weights.size());
@@ -148,17 +148,17 @@ void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, std::span<cons
       influence[i % influence.size()] += sign * (part - mean) / bridge.slope;
     }
   };
-  add_influence(log_weights_before_, 1.0, influence_[influence_.size() - 2]);
-  add_influence(log_weights_after_, -1.0, influence_.back());
+  add_influence(log_weights_before_, 1.0, sums_.influence[sums_.influence.size() - 2]);
+  add_influence(log_weights_after_, -1.0, sums_.influence.back());
 }
 
 double BridgeEvidence::variance_up_to(std::size_t last) const {
-  std::vector<Index> group(influence_[last].size());  // of each chain: its ancestor in stage `first`
+  std::vector<Index> group(sums_.influence[last].size());  // of each chain: its ancestor in stage `first`
   std::iota(group.begin(), group.end(), Index{0});
   std::size_t first = last;
   for (std::vector<Index> earlier = group; first > 0; --first) {
     for (Index& chain : earlier) {
-      chain = parents_[first][static_cast<std::size_t>(chain)];
+      chain = sums_.parents[first][static_cast<std::size_t>(chain)];
     }
     const double groups = effective_groups(earlier);
     if (groups <= 1.0 || (groups < fewest_groups && first < last)) {
@@ -166,22 +166,22 @@ double BridgeEvidence::variance_up_to(std::size_t last) const {
     }
     group = earlier;
   }
-  double variance = grouped_variance(influence_[last], group);
+  double variance = grouped_variance(sums_.influence[last], group);
   if (first < last) {
     std::vector<double> earlier_sums =
-        influence_[first];  // of the descendants of each chain of stage `first`
+        sums_.influence[first];  // of the descendants of each chain of stage `first`
     std::vector<Index> group_before(earlier_sums.size());
     std::iota(group_before.begin(), group_before.end(), Index{0});
     for (std::size_t stage = first + 1; stage < last; ++stage) {
       std::vector<Index> of_stage;
-      for (std::size_t c = 0; c < influence_[stage].size(); ++c) {
-        of_stage.push_back(group_before[static_cast<std::size_t>(parents_[stage][c])]);
-        earlier_sums[static_cast<std::size_t>(of_stage.back())] += influence_[stage][c];
+      for (std::size_t c = 0; c < sums_.influence[stage].size(); ++c) {
+        of_stage.push_back(group_before[static_cast<std::size_t>(sums_.parents[stage][c])]);
+        earlier_sums[static_cast<std::size_t>(of_stage.back())] += sums_.influence[stage][c];
       }
       group_before = std::move(of_stage);
     }
     for (std::size_t c = 0; c < group.size(); ++c) {
-      variance += 2.0 * influence_[last][c] * earlier_sums[static_cast<std::size_t>(group[c])];
+      variance += 2.0 * sums_.influence[last][c] * earlier_sums[static_cast<std::size_t>(group[c])];
     }
   }
   return variance;
@@ -189,10 +189,10 @@ double BridgeEvidence::variance_up_to(std::size_t last) const {
 
 double BridgeEvidence::standard_error() const {
   double variance = 0.0;
-  for (std::size_t stage = 0; stage < influence_.size(); ++stage) {
+  for (std::size_t stage = 0; stage < sums_.influence.size(); ++stage) {
     variance += variance_up_to(stage);
   }
-  return std::sqrt(std::max(variance, least_variance_));
+  return std::sqrt(std::max(variance, sums_.least_variance));
 }
 
 }  // namespace tmcmc

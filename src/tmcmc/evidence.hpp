@@ -2,11 +2,21 @@
 /// Log-evidence by bridge sampling between neighbouring stages, with a standard error from one run.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "tmcmc/types.hpp"
 
 namespace tmcmc {
+
+/// What BridgeEvidence has summed up so far; each vector has one entry a population, the prior being the first.
+struct BridgeSums {
+  double log_evidence = 0.0;
+  double least_variance = 0.0;  ///< of independent samples
+  std::vector<std::vector<double>>
+      influence;  ///< of each chain on the sum of the logarithms; empty before a step
+  std::vector<std::vector<Index>> parents;  ///< of each chain, in the population before; none for the prior
+};
 
 /// The ratio Z_{t+1} / Z_t of the tempered evidences from the populations on both sides of a step (Bennett 1976; Meng
 /// and Wong 1996): the root r of
@@ -22,6 +32,10 @@ namespace tmcmc {
 /// populations hardly overlap. What no chain has seen is not in it.
 class BridgeEvidence {
  public:
+  BridgeEvidence() = default;
+  /// Goes on from sums that belong together (Progress::require_valid checks that).
+  explicit BridgeEvidence(BridgeSums sums) : sums_(std::move(sums)) {}
+
   /// Adds a step. Sample i of a population belongs to chain i modulo the number of chains.
   /// \param before,after  log-likelihoods of the populations on both sides
   /// \param parents  chain in `before` from whose states each chain in `after` started
@@ -29,21 +43,20 @@ class BridgeEvidence {
   void add(ConstDoubles before, ConstDoubles after, std::span<const Index> parents, double step);
 
   /// Sum of the logarithms of the ratios added so far: log Z at the last beta, of a normalised prior.
-  [[nodiscard]] double log_evidence() const { return log_evidence_; }
+  [[nodiscard]] double log_evidence() const { return sums_.log_evidence; }
 
   /// 0 before the first step. Where all chains of a stage started from one chain, they are taken one by one. Infinity for
   /// a single chain.
   [[nodiscard]] double standard_error() const;
 
+  [[nodiscard]] const BridgeSums& sums() const { return sums_; }
+
  private:
   /// Variance of what the chains of a stage add, and twice its covariance with what those before have added.
   [[nodiscard]] double variance_up_to(std::size_t stage) const;
 
-  double log_evidence_ = 0.0;
-  double least_variance_ = 0.0;                 // of independent samples
-  std::vector<std::vector<double>> influence_;  // of each chain of each stage, the prior being the first
-  std::vector<std::vector<Index>> parents_;     // of each chain of each stage
-  std::vector<double> log_weights_before_;      // work space
+  BridgeSums sums_;
+  std::vector<double> log_weights_before_;  // work space
   std::vector<double> log_weights_after_;
 };
 

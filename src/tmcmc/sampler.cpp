@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "tmcmc/diagnostics.hpp"
-#include "tmcmc/evidence.hpp"
 #include "tmcmc/parallel.hpp"
 #include "tmcmc/stage_kernels.hpp"
 
@@ -106,6 +105,19 @@ void record_descent(const Options& options, std::span<const Index> ancestors, co
   to.genealogy.ancestors.push_back(std::move(parents));
 }
 
+void require_valid(const Options& options, const StreamKey& key) {
+  options.validate();
+  if (key.arm >= (1U << 24U)) {
+    throw std::invalid_argument("key.arm = " + std::to_string(key.arm) + ": expected a number below 2^24");
+  }
+}
+
+StepRule criterion_rule(const Options& options) {
+  return [&options](const State& state) {
+    return choose_step(as_span(state.log_likelihood), 1.0 - state.beta, options.criterion, options.threads);
+  };
+}
+
 }  // namespace
 
 Workspace::Workspace(const Problem& problem, const Options& options, const StreamKey& key)
@@ -182,17 +194,15 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   return record;
 }
 
-Result run(const Problem& problem, const Options& options, const StreamKey& key, const StepRule& rule,
-           const Observer& observer) {
-  options.validate();
-  if (key.arm >= (1U << 24U)) {
-    throw std::invalid_argument("key.arm = " + std::to_string(key.arm) + ": expected a number below 2^24");
-  }
+Result resume(const Problem& problem, const Options& options, const StreamKey& key, Progress from,
+              const StepRule& rule, const Observer& observer) {
+  require_valid(options, key);
+  require_valid(from, problem.prior, options);
   Workspace work(problem, options, key);
   Result result;
-  State state = initial_state(problem, options, key);
+  Progress progress = std::move(from);
+  State& state = progress.state;
   State next;
-  BridgeEvidence bridge;
   while (state.beta < 1.0) {
     if (state.stage == options.max_stages) {
       result.stop = StopReason::stage_limit;
@@ -214,32 +224,43 @@ Result run(const Problem& problem, const Options& options, const StreamKey& key,
       result.stop = StopReason::budget;
       break;
     }
-    result.stages.push_back(advance(problem, options, key, transition, state, next, work));
+    progress.stages.push_back(advance(problem, options, key, transition, state, next, work));
     if (options.diagnose) {
-      bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood), next.genealogy.ancestors.back(),
-                 result.stages.back().step);
+      progress.bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood),
+                          next.genealogy.ancestors.back(), progress.stages.back().step);
     }
     std::swap(state, next);
     if (observer) {
-      observer(result.stages.back(), state);
+      observer(progress);
     }
   }
   result.final = std::move(state);
+  result.stages = std::move(progress.stages);
   if (options.diagnose) {
-    result.evidence = {bridge.log_evidence(), bridge.standard_error()};
+    result.evidence = {progress.bridge.log_evidence(), progress.bridge.standard_error()};
     result.diagnostics = diagnose(result, options);
   }
   return result;
 }
 
+Result resume(const Problem& problem, const Options& options, const StreamKey& key, Progress from,
+              const Observer& observer) {
+  return resume(problem, options, key, std::move(from), criterion_rule(options), observer);
+}
+
+Result run(const Problem& problem, const Options& options, const StreamKey& key, const StepRule& rule,
+           const Observer& observer) {
+  require_valid(options, key);
+  Progress progress;
+  progress.state = initial_state(problem, options, key);
+  if (observer) {
+    observer(progress);
+  }
+  return resume(problem, options, key, std::move(progress), rule, observer);
+}
+
 Result run(const Problem& problem, const Options& options, const StreamKey& key, const Observer& observer) {
-  return run(
-      problem, options, key,
-      [&](const State& state) {
-        return choose_step(as_span(state.log_likelihood), 1.0 - state.beta, options.criterion,
-                           options.threads);
-      },
-      observer);
+  return run(problem, options, key, criterion_rule(options), observer);
 }
 
 StepRule fixed_schedule(std::vector<double> betas) {

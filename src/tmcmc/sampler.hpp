@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tmcmc/options.hpp"
+#include "tmcmc/progress.hpp"
 #include "tmcmc/result.hpp"
 #include "tmcmc/stage_moves.hpp"
 
@@ -31,8 +32,8 @@ struct Workspace {
   StageMoveWorkspace moves;        ///< work space of move_population()
 };
 
-/// Called after each stage with its record and the new population.
-using Observer = std::function<void(const StageRecord&, const State&)>;
+/// Called with the draws from the prior, when progress.stages is empty, and after each stage.
+using Observer = std::function<void(const Progress& progress)>;
 
 /// Chooses the step from a population with beta < 1.
 using StepRule = std::function<Transition(const State&)>;
@@ -56,6 +57,16 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
 /// The same with steps from elsewhere.
 [[nodiscard]] Result run(const Problem& problem, const Options& options, const StreamKey& key,
                          const StepRule& rule, const Observer& observer = {});
+
+/// Goes on from what an observer of the same run saw after any stage, to the same result bit for bit as if it had never been
+/// stopped. `run` is this from the draws from the prior on.
+/// \param key  the run's; threads, batch_rows and max_stages may be others than before
+/// \param observer  sees what comes after `from`
+/// \throws std::invalid_argument for a progress that cannot be of this problem and these options; as run.
+[[nodiscard]] Result resume(const Problem& problem, const Options& options, const StreamKey& key,
+                            Progress from, const Observer& observer = {});
+[[nodiscard]] Result resume(const Problem& problem, const Options& options, const StreamKey& key,
+                            Progress from, const StepRule& rule, const Observer& observer = {});
 
 /// Steps through the given temperatures.
 /// \param betas  ascending, positive, the last one 1

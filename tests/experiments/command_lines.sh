@@ -2,21 +2,8 @@
 # Every executable: --help, --version, --quiet, --output; same bytes for every number of threads.
 source "$(dirname "$0")/support.sh"
 
-experiments=$(cd "$source/experiments" && ls ./*.cpp | sed 's|^\./||; s|\.cpp$||')
-small="--runs 3 --samples 200"
-"$bin/sampling_study" $small --quiet --output samples.csv --runs-output runs.csv --stages-output stages.csv
-mkdir -p data/generated
-cp samples.csv data/generated/sampling_study_samples.csv
-cp runs.csv data/generated/sampling_study_runs.csv
-cp stages.csv data/generated/sampling_study_stages.csv
-"$bin/table3_pbox_area" --quiet --output data/generated/table3_pbox_area.csv
-"$bin/table4_iteration_counts" --quiet --output data/generated/table4_iteration_counts.csv
-"$bin/table1_observations" --quiet --output data/generated/table1_observations.csv
-printf 'friction_force_n,frequency_ratio\n0.5,0.8\n' >points.csv
-printf 'key,file,where,column,statistic,format\nruns,generated/sampling_study_runs.csv,,run,count,integer\n' >values.csv
-printf 'key,file,where,columns\nareas,generated/table3_pbox_area.csv,,sampler:text friction_force_n\n' >tables.csv
-
-"$bin/replicated_study" $small --studies 4 --quiet --output data/generated/replicated_study.csv
+experiments=$(executables)
+make_small_inputs
 
 same() {  # NAME FILE FILE: of measurements only the columns before the times repeat
   case $1 in scaling) cmp -s <(cut -d, -f1-7 "$2") <(cut -d, -f1-7 "$3") ;; *) cmp -s "$2" "$3" ;; esac
@@ -25,15 +12,7 @@ same() {  # NAME FILE FILE: of measurements only the columns before the times re
 for e in $experiments; do
   check "$e --help" test "$("$bin/$e" --help | grep -c -e --output -e --quiet -e --version)" -ge 3
   check "$e --version" grep -qE '^[a-z0-9_]+ [0-9]+\.[0-9]+\.[0-9]+$' <("$bin/$e" --version)
-  options=""
-  [ "$e" = evaluate_model ] && options="--points points.csv"
-  [ "$e" = benchmark_problems ] && options="--problem banana"
-  [ "$e" = cost_accuracy ] && options="--family resampling"
-  case $("$bin/$e" --help) in *"--runs "*) options="$options --runs 3" ;; esac
-  case $("$bin/$e" --help) in *"--studies "*) options="$options --studies 3" ;; esac
-  case $("$bin/$e" --help) in *"--samples "*) options="$options --samples 200" ;; esac
-  [ "$e" = report_values ] && options="--values values.csv --tables tables.csv"
-  [ "$e" = scaling ] && options="--most-samples 1000 --repetitions 1"
+  options=$(small_options "$e")
   "$bin/$e" $options --output "$e.csv" >"$e.report" 2>"$e.err"
   check "$e ends with 0: $(cat "$e.err")" test $? = 0
   check "$e writes its output" test "$(wc -l <"$e.csv")" -ge 2
@@ -53,7 +32,7 @@ for e in $experiments; do
 done
 
 "$bin/sampling_study" $small --seed 2 --quiet --output seed2.csv
-check "another seed, another result" test "$(cmp -s samples.csv seed2.csv; echo $?)" = 1
+check "another seed, another result" test "$(cmp -s data/generated/sampling_study_samples.csv seed2.csv; echo $?)" = 1
 
 # The rows are passed on as they are, with results added; the reference values come from an independent program.
 "$bin/evaluate_model" --reading as_published --points "$source/tests/data/phase_discrete_bin.csv" >phase.csv

@@ -28,6 +28,42 @@ expect_error() {
   rm -f ../before.$$ ../after.$$ ../out.$$ ../err.$$
 }
 
+executables() { (cd "$source/experiments" && ls ./*.cpp) | sed 's|^\./||; s|\.cpp$||'; }
+
+# Inputs, made by small runs, with which every executable finds what it reads by default.
+small="--runs 3 --samples 200"
+make_small_inputs() {
+  local made=data/generated
+  mkdir -p $made paper
+  "$bin/sampling_study" $small --quiet --output $made/sampling_study_samples.csv \
+    --runs-output $made/sampling_study_runs.csv --stages-output $made/sampling_study_stages.csv
+  "$bin/table3_pbox_area" --quiet --output $made/table3_pbox_area.csv
+  "$bin/table4_iteration_counts" --quiet --output $made/table4_iteration_counts.csv
+  "$bin/table1_observations" --quiet --output $made/table1_observations.csv
+  "$bin/replicated_study" $small --studies 4 --quiet --output $made/replicated_study.csv
+  printf '%s\n' friction_force_n,natural_frequency_hz,phase_noise_deg,frequency_ratio_noise,frequency_ratio \
+    0.5,3,2,0.02,0.8 >points.csv
+  printf 'key,file,where,column,statistic,format\nruns,generated/sampling_study_runs.csv,,run,count,integer\n' >paper/values.csv
+  printf 'key,file,where,columns\nareas,generated/table3_pbox_area.csv,,sampler:text friction_force_n\n' >paper/tables.csv
+}
+
+# small_options EXECUTABLE: options with which it ends soon.
+small_options() {
+  case $1 in
+    evaluate_model) echo --points points.csv; return ;;
+    benchmark_problems) printf -- '--problem banana ' ;;
+    cost_accuracy) printf -- '--family resampling ' ;;
+    exact_posterior)
+      echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv
+      return ;;
+    scaling) echo --most-samples 1000 --repetitions 1; return ;;
+  esac
+  local help; help=$("$bin/$1" --help)
+  case $help in *"--runs "*) printf -- '--runs 3 ' ;; esac
+  case $help in *"--studies "*) printf -- '--studies 3 ' ;; esac
+  case $help in *"--samples "*) printf -- '--samples 200 ' ;; esac
+}
+
 finish() {
   echo "$passed passed, $failed failed"
   [ $failed = 0 ] && [ $passed -gt 0 ]

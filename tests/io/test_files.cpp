@@ -1,8 +1,6 @@
 #include <fcntl.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,6 +15,7 @@
 
 #include "io/files.hpp"
 #include "io/progress.hpp"
+#include "redirection.hpp"
 #include "temporary_directory.hpp"
 
 using Catch::Matchers::Contains;
@@ -60,30 +59,6 @@ std::string open_failure(const fs::path& path) {
   }
   return "no OutputError";
 }
-
-/// Points a descriptor elsewhere until the end of the scope.
-class Redirection {
- public:
-  Redirection(int descriptor, const char* path, int flags)
-      : Redirection(descriptor, ::open(path, flags | O_CLOEXEC, 0600)) {}
-  Redirection(int descriptor, int target) : descriptor_(descriptor) {
-    std::fflush(nullptr);
-    saved_ = ::dup(descriptor);
-    REQUIRE(target >= 0);
-    ::dup2(target, descriptor);
-    ::close(target);
-  }
-  ~Redirection() {
-    ::dup2(saved_, descriptor_);
-    ::close(saved_);
-  }
-  Redirection(const Redirection&) = delete;
-  Redirection& operator=(const Redirection&) = delete;
-
- private:
-  int descriptor_;
-  int saved_ = -1;
-};
 
 }  // namespace
 
@@ -298,51 +273,6 @@ TEST_CASE("errors of standard output are reported", "[io][files]") {
   }
   CHECK_THAT(full, Contains("standard output: cannot be written: No space left on device"));
   CHECK_THAT(closed, Contains("standard output: cannot be opened for writing: Bad file descriptor"));
-}
-
-TEST_CASE("signals that end the process remove the temporary files", "[io][files]") {
-  const TemporaryDirectory directory;
-  put(directory.path() / "old", "old");
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) {
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-      ::signal(signal_number, SIG_DFL);
-      io::remove_partial_files_on_signals();
-      std::vector<std::unique_ptr<OutputFile>> files;
-      for (const char* name : {"a", "b", "old", "done"}) {
-        files.push_back(std::make_unique<OutputFile>(directory.path() / name));
-        files.back()->write("x");
-      }
-      files.back()->commit();
-      if (entries(directory.path()) != 5) ::_exit(1);
-      ::raise(signal_number);
-      ::_exit(2);
-    }
-    int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
-    CAPTURE(signal_number, status);
-    CHECK(WIFSIGNALED(status));
-    CHECK(WTERMSIG(status) == signal_number);
-    CHECK(entries(directory.path()) == 2);
-    CHECK(content(directory.path() / "old") == "old");
-    fs::remove(directory.path() / "done");
-  }
-}
-
-TEST_CASE("signals that were ignored stay ignored", "[io][files]") {
-  const pid_t child = ::fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    ::signal(SIGHUP, SIG_IGN);
-    io::remove_partial_files_on_signals();
-    ::raise(SIGHUP);
-    ::_exit(7);
-  }
-  int status = 0;
-  REQUIRE(::waitpid(child, &status, 0) == child);
-  CHECK(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 7);
 }
 
 TEST_CASE("more live files than the signal handler covers still work", "[io][files]") {

@@ -124,17 +124,27 @@ TEST_CASE("the likelihood is evaluated as often as the records say", "[tmcmc][sa
   }
 }
 
-TEST_CASE("the observer sees each stage once, with the population after it", "[tmcmc][sampler]") {
+TEST_CASE("the observer sees the draws from the prior and each stage once, with the population after it",
+          "[tmcmc][sampler]") {
   std::vector<StageRecord> seen;
   State last;
-  const Result result =
-      tmcmc::run(ridge(), few_samples(), {.seed = 5}, [&](const StageRecord& r, const State& s) {
-        seen.push_back(r);
-        last = s;
-        CHECK(r.stage == s.stage);
-        CHECK(r.beta == s.beta);
-      });
+  Index calls = 0;
+  const Result result = tmcmc::run(ridge(), few_samples(), {.seed = 5}, [&](const tmcmc::Progress& progress) {
+    const State& s = progress.state;
+    CHECK(s.stage == calls);
+    REQUIRE(progress.stages.size() == static_cast<std::size_t>(calls++));
+    if (progress.stages.empty()) {
+      CHECK((s.points == ridge().prior.sample(few_samples().samples, {.seed = 5})));
+      return;
+    }
+    const StageRecord& r = progress.stages.back();
+    seen.push_back(r);
+    last = s;
+    CHECK(r.stage == s.stage);
+    CHECK(r.beta == s.beta);
+  });
   REQUIRE(seen.size() == result.stages.size());
+  CHECK(calls == result.final.stage + 1);
   for (std::size_t s = 0; s < seen.size(); ++s) {
     CHECK(seen[s].stage == static_cast<Index>(s) + 1);
     CHECK(seen[s].beta == result.stages[s].beta);

@@ -138,8 +138,12 @@ TEST_CASE("no stage uses the random numbers of another", "[tmcmc][sampler]") {
   const std::vector<double> start(before.points.col(0).begin(), before.points.col(0).end());
   std::vector<std::vector<double>> displacements;
   static_cast<void>(tmcmc::run(flat, options, {.seed = 5}, fixed_schedule({0.25, 0.5, 0.75, 1.0}),
-                               [&](const StageRecord& record, const State& state) {
-                                 CHECK(record.acceptance_rate > 0.9);
+                               [&](const tmcmc::Progress& progress) {
+                                 if (progress.stages.empty()) {
+                                   return;
+                                 }
+                                 const State& state = progress.state;
+                                 CHECK(progress.stages.back().acceptance_rate > 0.9);
                                  std::vector<double> moved;
                                  for (const double x :
                                       state.points.col(0)) {  // from the nearest earlier point

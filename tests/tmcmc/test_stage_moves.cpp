@@ -222,7 +222,12 @@ TEST_CASE("waste-free in a run: N rows, M (N/M - 1) evaluations a stage", "[tmcm
   Population before = tmcmc::initial_state(gamma_normal(), options, {.seed = 53}).points;
   Index founders = 600;
   const Result result =
-      tmcmc::run(gamma_normal(), options, {.seed = 53}, [&](const StageRecord& record, const State& state) {
+      tmcmc::run(gamma_normal(), options, {.seed = 53}, [&](const tmcmc::Progress& progress) {
+        if (progress.stages.empty()) {
+          return;
+        }
+        const StageRecord& record = progress.stages.back();
+        const State& state = progress.state;
         CHECK(state.points.rows() == 600);
         CHECK(record.evaluations == 30 * 19);
         CHECK(record.move_steps == 19);

@@ -1,0 +1,151 @@
+// A model of one's own, from measurements to a posterior: the storey stiffnesses of a two-storey shear frame from measured
+// natural frequencies (docs/own_model.md says how to put another in its place). The model is the C++ of support/shear_frame.hpp,
+// or with --command any other program, called once a batch of points.
+//
+// Data: data/examples/, made by data/examples/simulate_frame.py; or the reader's own measurements.
+
+#include <cmath>
+#include <filesystem>
+
+#include "archive/checkpoint.hpp"
+#include "external/program.hpp"
+#include "inputs.hpp"
+#include "kept_run.hpp"
+#include "netcdf/inference_data.hpp"
+#include "option_checks.hpp"
+#include "shear_frame.hpp"
+
+using namespace experiments;
+
+namespace {
+
+/// The recommended sampler with chains enough that a batch is worth the start of a program.
+tmcmc::Options sampler_options(long evaluations, int threads) {
+  constexpr long chains = 100;
+  tmcmc::Options options = tmcmc::recommended_options(evaluations);
+  options.chains = chains;
+  options.samples = evaluations / (13 * chains) * chains;
+  options.threads = threads;
+  return options;
+}
+
+netcdf::InferenceData inference_data(const tmcmc::Result& result, const FrameObservations& observations,
+                                     std::uint64_t seed) {
+  netcdf::InferenceData data{
+      FrameLikelihood::parameter_names(), result.final.points, result.final.log_likelihood, {}, {}, {}, {}};
+  const auto stages = [&](const std::string& name, auto member) {
+    netcdf::Column column{name, {}};
+    for (const auto& stage : result.stages) {
+      column.second.push_back(static_cast<double>(stage.*member));
+    }
+    data.stages.push_back(std::move(column));
+  };
+  stages("beta", &tmcmc::StageRecord::beta);
+  stages("effective_sample_size", &tmcmc::StageRecord::effective_sample_size);
+  stages("acceptance_rate", &tmcmc::StageRecord::acceptance_rate);
+  stages("log_evidence_increment", &tmcmc::StageRecord::log_evidence_increment);
+  stages("evaluations", &tmcmc::StageRecord::evaluations);
+  data.observations = {{"mode", {observations.mode.begin(), observations.mode.end()}},
+                       {"frequency_hz", observations.frequency_hz}};
+  data.texts = {{"inference_library", "tmcmc_companion"},
+                {"inference_library_version", COMPANION_VERSION},
+                {"seed", std::to_string(seed)}};
+  data.numbers = {{"log_evidence", result.evidence.log_evidence},
+                  {"log_evidence_standard_error", result.evidence.standard_error}};
+  for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
+    data.numbers.emplace_back("effective_sample_size_" + data.parameter_names[j],
+                              result.diagnostics.effective_sample_size[static_cast<Eigen::Index>(j)]);
+  }
+  return data;
+}
+
+void report(const Program& program, const tmcmc::Result& result) {
+  const auto& names = FrameLikelihood::parameter_names();
+  const auto n = static_cast<double>(result.final.points.rows());
+  for (Eigen::Index j = 0; j < result.final.points.cols(); ++j) {
+    const auto column = result.final.points.col(j).array();
+    const double mean = column.mean();
+    const double sd = std::sqrt((column - mean).square().sum() / (n - 1.0));
+    program.report("{} = {:.5g} +- {:.2g} (effective sample size {:.0f})\n",
+                   names[static_cast<std::size_t>(j)], mean, sd, result.diagnostics.effective_sample_size[j]);
+  }
+  program.report("log-evidence {:.3f} +- {:.3f}; {} stages, {} evaluations\n", result.evidence.log_evidence,
+                 result.evidence.standard_error, result.stages.size(), result.final.evaluations);
+  for (const auto& warning : result.diagnostics.warnings) {
+    program.report("warning: {}\n", warning.message);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("own_model", "Updates a model of one's own: a two-storey shear frame, or another program.");
+  std::string observations_path = example("frame_observations.csv");
+  std::string prior_path = example("frame_prior.csv");
+  std::string command, netcdf_path, checkpoint_path;
+  double timeout_seconds = 0.0;
+  long evaluations = 31000;
+  RunOptions run_options;
+  program.add_output("CSV: a row a sample, with its log-likelihood");
+  program.add_file_output("--netcdf", netcdf_path, "Samples, stages and observations in the layout of ArviZ");
+  program.add_file_output(
+      "--checkpoint", checkpoint_path,
+      "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
+      ".checkpoint, if that is a file");
+  auto& app = program.app();
+  app.add_option("--observations", observations_path, "CSV with columns mode (1 or 2), frequency_hz")
+      ->type_name("CSV");
+  app.add_option("--prior", prior_path, "CSV with columns parameter, lower, upper")->type_name("CSV");
+  app.add_option("--evaluations", evaluations, "Budget of log-likelihoods")
+      ->check(count("--evaluations", 2600));
+  app.add_option("--command", command,
+                 "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv")
+      ->type_name("PROGRAM");
+  app.add_option("--timeout", timeout_seconds, "Most seconds of one call of the program; 0: no limit")
+      ->check(number(
+          "--timeout", [](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"));
+  run_options.add_seed_to(app);
+  run_options.add_threads_to(app);
+
+  return program.run(argc, argv, [&] {
+    const auto& names = FrameLikelihood::parameter_names();
+    const auto observations = read_frame_observations(observations_path);
+    tmcmc::LogLikelihood log_likelihood = FrameLikelihood(observations);
+    std::string model = "shear_frame";
+    if (!command.empty()) {
+      log_likelihood = external::Program({command, names, timeout_seconds});
+      model = std::filesystem::absolute(command).string();
+    }
+    for (const double frequency : observations.frequency_hz) {
+      model += " " + io::format_number(frequency);
+    }
+    auto csv = open_csv(program.output(), [&] {
+      auto columns = names;
+      columns.emplace_back("log_likelihood");
+      return columns;
+    }());
+    const bool is_file = !program.output().empty() && program.output() != "-";
+    const std::string checkpoint =
+        checkpoint_path.empty() && is_file ? program.output() + ".checkpoint" : checkpoint_path;
+
+    archive::RunDescription run{sampler_options(evaluations, run_options.study_options().threads),
+                                {.seed = run_options.seed},
+                                read_prior(prior_path, names),
+                                model};
+    const auto result = run_kept(run, log_likelihood, checkpoint);
+    report(program, result);
+    if (csv) {
+      for (Eigen::Index i = 0; i < result.final.points.rows(); ++i) {
+        const Eigen::VectorXd point = result.final.points.row(i);
+        csv->row(std::span<const double>(point.data(), names.size()), result.final.log_likelihood[i]);
+      }
+      csv->commit();
+    }
+    if (!netcdf_path.empty()) {
+      netcdf::write_inference_data(netcdf_path, inference_data(result, observations, run_options.seed));
+    }
+    if (!checkpoint.empty()) {
+      std::filesystem::remove(checkpoint);
+    }
+  });
+}

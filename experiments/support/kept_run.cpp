@@ -1,0 +1,37 @@
+#include "kept_run.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace experiments {
+
+tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikelihood& log_likelihood,
+                       const std::string& checkpoint) {
+  if (checkpoint.empty()) {
+    return tmcmc::run({log_likelihood, run.prior}, run.options, run.key);
+  }
+  double beta = -1.0;
+  std::size_t stages = 0;
+  try {
+    return archive::run_with_checkpoint(checkpoint, run, log_likelihood,
+                                        [&](const tmcmc::Progress& progress) {
+                                          beta = progress.state.beta;
+                                          stages = progress.stages.size();
+                                        });
+  } catch (const io::InputError&) {
+    throw;
+  } catch (const io::OutputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (beta < 0.0) {
+      throw;
+    }
+    throw std::runtime_error(
+        fmt::format("{}; the samples after stage {} (beta = {:.4g}) are kept in {}: the same command goes "
+                    "on from there",
+                    error.what(), stages, beta, checkpoint));
+  }
+}
+
+}  // namespace experiments

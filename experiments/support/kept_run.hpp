@@ -1,0 +1,17 @@
+/// \file
+/// A run whose stages are kept while it goes.
+#pragma once
+
+#include <string>
+
+#include "archive/checkpoint.hpp"
+
+namespace experiments {
+
+/// archive::run_with_checkpoint, or tmcmc::run if the path is empty.
+/// \throws as these; what ends the run says in its message which stage is kept, and where.
+[[nodiscard]] tmcmc::Result run_kept(const archive::RunDescription& run,
+                                     const tmcmc::LogLikelihood& log_likelihood,
+                                     const std::string& checkpoint);
+
+}  // namespace experiments

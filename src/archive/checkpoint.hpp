@@ -1,0 +1,49 @@
+/// \file
+/// The progress of a run in a file, so that a run that was killed goes on after its last stage and ends with the same bytes.
+///
+/// Format 1 is text, one thing a line, numbers in digits that read back as the same double ("inf", "-inf" and "nan" too):
+///
+///     tmcmc checkpoint 1
+///     samples = 1000                 what the run depends on: archive::settings(RunDescription)
+///     ...
+///     model = ...
+///     stage = 3                      then beta, log_evidence, evaluations, proposal_scale, chains (tmcmc::State),
+///     ...                            bridge.log_evidence and bridge.least_variance (tmcmc::BridgeSums)
+///     stages: 3                      so many lines follow: the fields of tmcmc::StageRecord in their order
+///     points: 1000                   a line a sample: its parameters, then its log-likelihood
+///     ancestors: 3                   tmcmc::Genealogy::ancestors, a line a population
+///     influence: 4                   tmcmc::BridgeSums::influence and parents, a line a population
+///     parents: 4
+///     crc32 = 9ae0daaf               CRC-32 (that of zlib and PNG) of all bytes before this line, eight hexadecimal digits
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "archive/settings.hpp"
+#include "tmcmc/sampler.hpp"
+
+namespace archive {
+
+/// Writes the file anew; it appears complete or not at all (io::OutputFile).
+/// \throws io::OutputError; std::invalid_argument as settings.
+void write_checkpoint(const std::filesystem::path& path, const RunDescription& run,
+                      const tmcmc::Progress& progress);
+
+/// Reads a checkpoint of this run; nothing if there is no such file.
+/// \throws io::InputError, one line that names the file and what is wrong with it: it cannot be read, is no checkpoint or one
+///         of another format, is cut off or damaged, was made by a run of other settings (naming the first that differs and
+///         both values), or holds what tmcmc::require_valid refuses.
+[[nodiscard]] std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path,
+                                                             const RunDescription& run);
+
+/// A run that keeps its progress in a file: it goes on from there if the file exists, else it starts, and writes the file
+/// after the draws from the prior and after each stage. The file stays after the end, so that the next call returns the
+/// result without an evaluation: remove it when the result is in place.
+/// \param observer  is called after the file was written
+/// \throws as tmcmc::run, read_checkpoint and write_checkpoint; a path that cannot be written is found out at the start.
+[[nodiscard]] tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDescription& run,
+                                                const tmcmc::LogLikelihood& log_likelihood,
+                                                const tmcmc::Observer& observer = {});
+
+}  // namespace archive

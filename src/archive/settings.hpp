@@ -1,0 +1,35 @@
+/// \file
+/// What the numbers of a run depend on, as names and values: to tell one run from another, and to say where they differ.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tmcmc/options.hpp"
+#include "tmcmc/prior.hpp"
+#include "tmcmc/random.hpp"
+
+namespace archive {
+
+/// All that the numbers of a run depend on.
+struct RunDescription {
+  tmcmc::Options options;
+  tmcmc::StreamKey key;
+  tmcmc::BoxPrior prior;
+  /// One line of the caller's that names all else: the model, its data, their version, and a step rule if one is used.
+  std::string model;
+};
+
+/// Name and value, the latter one line; numbers in digits that read back as the same double.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Every field of the options but those that change no number of a stage: threads, batch_rows and max_stages. Those of the
+/// criterion are called criterion.kind and so on.
+[[nodiscard]] Settings settings(const tmcmc::Options& options);
+
+/// The options, seed, study, arm, run, prior.lower, prior.upper and model.
+/// \throws std::invalid_argument if the model's description is not one line.
+[[nodiscard]] Settings settings(const RunDescription& run);
+
+}  // namespace archive

@@ -1,0 +1,22 @@
+/// \file
+/// A child process with a limit of time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace external {
+
+/// How a child ended.
+struct ChildEnd {
+  enum class Kind { exited, signalled, timed_out, not_started } kind;
+  int value;  ///< exit status, number of the signal, or errno
+};
+
+/// Runs arguments[0], a path, in the given directory with standard output on standard error. The child leads a process group,
+/// which is killed when the time is over or the child has ended; it is killed too when the calling thread ends.
+/// \param timeout_seconds  0: no limit
+[[nodiscard]] ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& directory,
+                                 double timeout_seconds);
+
+}  // namespace external

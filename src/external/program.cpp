@@ -1,0 +1,155 @@
+#include "external/program.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "external/child.hpp"
+#include "io/csv.hpp"
+
+namespace external {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory that is removed with all that is in it.
+class ScratchDirectory {
+ public:
+  ScratchDirectory() : path_((fs::temp_directory_path() / "log-likelihood-XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr) {
+      throw ProgramError(
+          fmt::format("{}: {}: expected to make a directory for the points", path_, std::strerror(errno)));
+    }
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string end_of(const ChildEnd& end, double timeout_seconds) {
+  switch (end.kind) {
+    case ChildEnd::Kind::exited:
+      return end.value == 0 ? std::string() : fmt::format("ended with status {}: expected 0", end.value);
+    case ChildEnd::Kind::signalled:
+      return fmt::format("was ended by signal {} ({}): expected an exit", end.value, strsignal(end.value));
+    case ChildEnd::Kind::timed_out:
+      return fmt::format("took more than {} s and was killed", io::format_number(timeout_seconds));
+    case ChildEnd::Kind::not_started:
+      return fmt::format("could not be started: {}", std::strerror(end.value));
+  }
+  return {};
+}
+
+bool is_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+  }
+  double value = 0.0;
+  return std::from_chars(text.data(), text.data() + text.size(), value).ptr == text.data() + text.size() &&
+         !text.empty();
+}
+
+}  // namespace
+
+Program::Program(ProgramOptions options) : options_(std::move(options)) {
+  if (options_.parameter_names.empty()) {
+    throw std::invalid_argument("parameter_names: expected at least one");
+  }
+  if (!(options_.timeout_seconds >= 0.0) || !std::isfinite(options_.timeout_seconds)) {
+    throw std::invalid_argument(fmt::format("timeout_seconds = {}: expected a finite number of at least 0",
+                                            options_.timeout_seconds));
+  }
+  std::error_code error;
+  const bool is_file = fs::is_regular_file(options_.program, error);
+  if (!is_file || access(options_.program.c_str(), X_OK) != 0) {
+    throw ProgramError(fmt::format("{}: {}: expected a program that can be run",
+                                   io::printable(options_.program, 200),
+                                   is_file ? std::strerror(errno)
+                                   : error ? error.message()
+                                           : "not a file"));
+  }
+  options_.program = fs::absolute(options_.program).string();
+}
+
+void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                         Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+  const auto fail = [&](const std::string& what, Eigen::Index row, bool first_of_batch) {
+    std::string point;
+    for (Eigen::Index j = 0; j < points.cols(); ++j) {
+      point +=
+          fmt::format("{}{} = {}", j > 0 ? ", " : "", options_.parameter_names[static_cast<std::size_t>(j)],
+                      io::format_number(points(row, j)));
+    }
+    throw ProgramError(fmt::format("{}: {}; {} ({})", io::printable(options_.program, 200), what,
+                                   first_of_batch ? fmt::format("the first of {} points", points.rows())
+                                                  : fmt::format("point {} of {}", row + 1, points.rows()),
+                                   point));
+  };
+  if (points.cols() != static_cast<Eigen::Index>(options_.parameter_names.size()) ||
+      log_likelihood.size() != points.rows()) {
+    throw std::invalid_argument(
+        fmt::format("external::Program: {} x {} points and {} results: expected {} columns and as "
+                    "many results as points",
+                    points.rows(), points.cols(), log_likelihood.size(), options_.parameter_names.size()));
+  }
+  if (points.rows() == 0) {
+    return;
+  }
+  const ScratchDirectory scratch;
+  const std::string input = scratch.path() + "/points.csv";
+  const std::string output = scratch.path() + "/log_likelihoods.csv";
+  io::CsvWriter writer(input, options_.parameter_names);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::VectorXd row = points.row(i);
+    writer.row(std::span<const double>(row.data(), static_cast<std::size_t>(row.size())));
+  }
+  writer.commit();
+
+  const ChildEnd end = run_child({options_.program, input, output}, scratch.path(), options_.timeout_seconds);
+  if (const std::string what = end_of(end, options_.timeout_seconds); !what.empty()) {
+    fail(what, 0, true);
+  }
+  if (!fs::exists(output)) {
+    fail("wrote no log-likelihoods", 0, true);
+  }
+  try {
+    const auto table = io::CsvTable::read(output);
+    table.require_columns({"log_likelihood"});
+    const auto rows = static_cast<Eigen::Index>(table.rows());
+    for (Eigen::Index i = 0; i < std::min(rows, points.rows()); ++i) {
+      const auto text = table.cell(static_cast<std::size_t>(i), "log_likelihood");
+      if (!is_number(text)) {
+        fail(fmt::format("wrote the log-likelihood '{}': expected a number or -inf", io::printable(text)), i,
+             false);
+      }
+    }
+    if (rows != points.rows()) {
+      fail(fmt::format("wrote {} log-likelihoods for {} points", rows, points.rows()),
+           std::min(rows, points.rows() - 1), false);
+    }
+    const std::vector<double> values = table.numbers_or_nan("log_likelihood");
+    log_likelihood = Eigen::Map<const Eigen::VectorXd>(values.data(), points.rows());
+  } catch (const io::InputError& error) {
+    std::string what = error.what();
+    if (const auto at = what.find(output); at != std::string::npos) {
+      what.replace(at, output.size(), "log_likelihoods.csv");
+    }
+    fail("wrote what cannot be read: " + what, 0, true);
+  }
+}
+
+}  // namespace external

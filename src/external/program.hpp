@@ -1,0 +1,52 @@
+/// \file
+/// A log-likelihood that is another program: a script in Python or MATLAB, a finite-element code.
+///
+/// The program is called once a batch as
+///
+///     PROGRAM points.csv log_likelihoods.csv
+///
+/// without a shell, in a directory of its own that is removed afterwards; its standard output goes to standard error. It reads
+/// the first file, a header with the names of the parameters and a row a point, and writes the second, a column
+/// `log_likelihood` with a row a point in the same order: decimal numbers, or -inf where the model excludes the point.
+#pragma once
+
+#include <Eigen/Core>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace external {
+
+/// What is called, and how long it may take.
+struct ProgramOptions {
+  std::string program;                       ///< path of the executable; no search along PATH
+  std::vector<std::string> parameter_names;  ///< header of the points, d names
+  double timeout_seconds = 0.0;              ///< of one call; 0: no limit
+};
+
+/// A call that gave no log-likelihoods. what() is one line: the program, what it did, the point that is concerned, and how many
+/// points were in the batch.
+class ProgramError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The program as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be called by several threads.
+class Program {
+ public:
+  /// \throws std::invalid_argument for no parameter or a timeout that is negative or not finite; ProgramError if the program
+  ///         is not an executable file.
+  explicit Program(ProgramOptions options);
+
+  /// \param points  n x d
+  /// \param log_likelihood  n, overwritten; NaN and plus infinity are passed on
+  /// \throws ProgramError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
+  ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is no number.
+  void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                  Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
+
+ private:
+  ProgramOptions options_;
+};
+
+}  // namespace external

@@ -1,0 +1,26 @@
+/// \file
+/// What a run carries from one stage to the next: all that it takes to go on.
+#pragma once
+
+#include <vector>
+
+#include "tmcmc/evidence.hpp"
+#include "tmcmc/options.hpp"
+#include "tmcmc/prior.hpp"
+#include "tmcmc/result.hpp"
+
+namespace tmcmc {
+
+/// A run after some of its stages. `resume` goes on from here.
+struct Progress {
+  State state;
+  std::vector<StageRecord> stages;  ///< so far
+  BridgeEvidence bridge;            ///< empty without Options::diagnose
+};
+
+/// Checks what resume relies on: sizes that go together, indices within them, points inside the box, log-likelihoods that
+/// are none of NaN and plus infinity, beta in [0, 1].
+/// \throws std::invalid_argument naming the field, what it is and what was expected.
+void require_valid(const Progress& progress, const BoxPrior& prior, const Options& options);
+
+}  // namespace tmcmc

@@ -1,0 +1,328 @@
+// A run that was killed after any stage and goes on from its file ends with the same bits; a file that is not its own, or
+// not whole, is refused.
+
+#include <boost/crc.hpp>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+#include "archive/checkpoint.hpp"
+#include "io/errors.hpp"
+#include "io/temporary_directory.hpp"
+#include "tmcmc/resumable.hpp"
+
+namespace {
+
+using archive::read_checkpoint;
+using archive::RunDescription;
+using archive::write_checkpoint;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using problems::ridge;
+using resumable::check_same_bits;
+using resumable::run_whole;
+using tmcmc::Index;
+using tmcmc::Options;
+using tmcmc::Progress;
+
+Options small(bool diagnose = true) {
+  Options options;
+  options.samples = 12;
+  options.proposal_scale = 0.8;
+  options.max_stages = 2;
+  options.diagnose = diagnose;
+  return options;
+}
+
+RunDescription described(const Options& options) {
+  return {options, {.seed = 5}, ridge().prior, "the ridge"};
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void put(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::remove(path);  // some file systems flush a file that is overwritten
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+/// What a refusal says, without the file's name; "accepted" if there is none.
+std::string refusal(const std::filesystem::path& path, const RunDescription& run) {
+  try {
+    static_cast<void>(read_checkpoint(path, run));
+  } catch (const io::InputError& error) {
+    const std::string message = error.what();
+    CHECK(message.find('\n') == std::string::npos);
+    CHECK_THAT(message, StartsWith(path.string() + ": "));
+    return message.substr(path.string().size() + 2);
+  }
+  return "accepted";
+}
+
+/// A checkpoint of a small run after two stages.
+struct Written {
+  explicit Written(const Options& options = small()) : run(described(options)) {
+    write_checkpoint(path, run, run_whole(options).progress.back());
+    text = content(path);
+  }
+  TemporaryDirectory directory;
+  std::filesystem::path path = directory.path() / "run.checkpoint";
+  RunDescription run;
+  std::string text;
+};
+
+/// The same text with a line replaced, and a checksum that fits.
+std::string forged(std::string text, const std::string& line, const std::string& by) {
+  text.erase(text.rfind("crc32"));
+  const auto at = text.find(line);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, line.size(), by);
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  char sum[9];
+  std::snprintf(sum, sizeof sum, "%08x", static_cast<unsigned>(crc.checksum()));
+  return text + "crc32 = " + sum + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("stopped after any stage, written, read and resumed: the run, for every kind of option",
+          "[archive]") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "run.checkpoint";
+  for (auto [name, options] : resumable::every_kind()) {
+    const auto whole = run_whole(options);
+    for (std::size_t stage = 0; stage < whole.progress.size(); ++stage) {
+      options.threads = 1;
+      write_checkpoint(path, described(options), whole.progress[stage]);
+      for (const int threads : {1, 3}) {
+        CAPTURE(name, threads, stage);
+        options.threads = threads;
+        const auto read = read_checkpoint(path, described(options));
+        REQUIRE(read.has_value());
+        const auto& sums = read->bridge.sums();
+        const auto& written = whole.progress[stage].bridge.sums();
+        CHECK(sums.log_evidence == written.log_evidence);
+        CHECK(sums.least_variance == written.least_variance);
+        CHECK(sums.influence == written.influence);
+        CHECK(sums.parents == written.parents);
+        check_same_bits(tmcmc::resume(ridge(), options, {.seed = 5}, *read), whole.result);
+      }
+    }
+  }
+}
+
+TEST_CASE("a run that dies at any evaluation and is started again and again is the run", "[archive]") {
+  struct Killed {};
+  for (const Index batch : {50, 400}) {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "run.checkpoint";
+    Options options = problems::few_samples();
+    options.batch_rows = 50;
+    const auto whole = run_whole(options);
+    Index starts = 0;
+    std::optional<tmcmc::Result> result;
+    std::vector<Index> stages;
+    while (!result) {
+      Index left = batch + 40 * ++starts;  // rows until it dies
+      try {
+        result = archive::run_with_checkpoint(
+            path, described(options),
+            [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+              left -= points.rows();
+              if (left < 0) {
+                throw Killed();
+              }
+              ridge().log_likelihood(points, values);
+            },
+            [&](const Progress& progress) { stages.push_back(progress.state.stage); });
+      } catch (const Killed&) {
+      }
+    }
+    CHECK(starts > 5);
+    check_same_bits(*result, whole.result);
+    for (std::size_t s = 0; s < stages.size(); ++s) {
+      CHECK(stages[s] == static_cast<Index>(s));  // no stage was done twice
+    }
+    check_same_bits(archive::run_with_checkpoint(path, described(options),
+                                                 [](const auto&, auto) { throw std::logic_error("called"); }),
+                    whole.result);
+    CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 1);
+  }
+}
+
+TEST_CASE("numbers come back bit for bit, extreme ones too", "[archive]") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Written written(small(false));
+  Progress progress = run_whole(small(false)).progress.back();
+  const std::vector<double> extreme = {-infinity, -0.0,      5e-324, -1.7976931348623157e308,
+                                       0.1,       1.0 / 3.0, 1e22};
+  for (std::size_t i = 0; i < extreme.size(); ++i) {
+    progress.state.log_likelihood[static_cast<Index>(i)] = extreme[i];
+  }
+  progress.stages[0].coefficient_of_variation = infinity;
+  progress.state.log_evidence = std::nextafter(1.0, 2.0);
+  write_checkpoint(written.path, written.run, progress);
+  const auto read = read_checkpoint(written.path, written.run);
+  REQUIRE(read.has_value());
+  for (std::size_t i = 0; i < extreme.size(); ++i) {
+    const double value = read->state.log_likelihood[static_cast<Index>(i)];
+    CHECK(value == extreme[i]);
+    CHECK(std::signbit(value) == std::signbit(extreme[i]));
+  }
+  CHECK(read->stages[0].coefficient_of_variation == infinity);
+  CHECK(read->state.log_evidence == progress.state.log_evidence);
+}
+
+TEST_CASE("no file: nothing to go on from", "[archive]") {
+  const TemporaryDirectory directory;
+  CHECK_FALSE(read_checkpoint(directory.path() / "none", described(small())).has_value());
+}
+
+TEST_CASE("a checkpoint cut off at any byte is refused", "[archive][fault]") {
+  const Written written;
+  for (std::size_t size = 0; size < written.text.size(); ++size) {
+    put(written.path, written.text.substr(0, size));
+    CAPTURE(size);
+    CHECK(refusal(written.path, written.run) != "accepted");
+  }
+  CHECK_THAT(refusal(written.path, written.run), StartsWith("cut off: expected a checksum"));
+  put(written.path, written.text);
+  CHECK(refusal(written.path, written.run) == "accepted");
+}
+
+TEST_CASE("a checkpoint with any bit flipped, or with more at its end, is refused", "[archive][fault]") {
+  const Written written;
+  for (std::size_t at = 0; at < written.text.size(); ++at) {
+    std::string spoiled = written.text;
+    spoiled[at] = static_cast<char>(spoiled[at] ^ (1 << (at % 8)));
+    put(written.path, spoiled);
+    CAPTURE(at);
+    CHECK(refusal(written.path, written.run) != "accepted");
+  }
+  for (const std::string more : {"\n", "x", "crc32 = 00000000\n"}) {
+    put(written.path, written.text + more);
+    CHECK(refusal(written.path, written.run) != "accepted");
+  }
+  std::string spoiled = written.text;
+  spoiled[spoiled.find("points") + 20] ^= 1;
+  put(written.path, spoiled);
+  CHECK_THAT(refusal(written.path, written.run), StartsWith("damaged: checksum "));
+}
+
+TEST_CASE("another format and other files are told apart", "[archive][fault]") {
+  const Written written;
+  put(written.path, "x,y\n1,2\n");
+  CHECK(refusal(written.path, written.run) ==
+        "not a checkpoint: expected 'tmcmc checkpoint 1' in its first line");
+  put(written.path, forged(written.text, "tmcmc checkpoint 1\n", "tmcmc checkpoint 2\n"));
+  CHECK(refusal(written.path, written.run) ==
+        "checkpoint of format '2': expected format 1 (delete it to start again)");
+  CHECK_THAT(refusal(written.directory.path(), written.run), StartsWith("cannot be read"));
+}
+
+TEST_CASE("a checkpoint of other settings is refused with both values", "[archive][fault]") {
+  const Written written;
+  const auto with = [&](const std::function<void(RunDescription&)>& change) {
+    RunDescription run = written.run;
+    change(run);
+    return refusal(written.path, run);
+  };
+  CHECK(with([](auto& r) { r.options.samples = 1000; }) ==
+        "checkpoint was made with samples = 12, this run has 1000: expected the same, or another file");
+  CHECK(with([](auto& r) { r.key.seed = 6; }) ==
+        "checkpoint was made with seed = 5, this run has 6: expected the same, or another file");
+  const std::vector<std::pair<std::string, std::function<void(RunDescription&)>>> changes = {
+      {"criterion.kind = coefficient_of_variation, this run has effective_sample_size",
+       [](auto& r) { r.options.criterion.kind = tmcmc::CriterionKind::effective_sample_size; }},
+      {"criterion.target = 1, this run has 0.9", [](auto& r) { r.options.criterion.target = 0.9; }},
+      {"criterion.deviation = population, this run has sample",
+       [](auto& r) { r.options.criterion.deviation = tmcmc::Deviation::sample; }},
+      {"criterion.counted = feasible, this run has all",
+       [](auto& r) { r.options.criterion.counted = tmcmc::Counted::all; }},
+      {"resampling = multinomial, this run has systematic",
+       [](auto& r) { r.options.resampling = tmcmc::Resampling::systematic; }},
+      {"move = resample_move, this run has waste_free",
+       [](auto& r) { r.options.move = tmcmc::MoveKind::waste_free; }},
+      {"move_steps = 3, this run has 4", [](auto& r) { r.options.move_steps = 4; }},
+      {"mixing_correlation = 0, this run has 0.1", [](auto& r) { r.options.mixing_correlation = 0.1; }},
+      {"max_move_steps = 1000, this run has 9", [](auto& r) { r.options.max_move_steps = 9; }},
+      {"chains = 50, this run has 6", [](auto& r) { r.options.chains = 6; }},
+      {"scale_rule = fixed, this run has acceptance_linked",
+       [](auto& r) { r.options.scale_rule = tmcmc::ScaleRule::acceptance_linked; }},
+      {"proposal_scale = 0.8, this run has 0.2", [](auto& r) { r.options.proposal_scale = 0.2; }},
+      {"target_acceptance = 0.3, this run has 0.4", [](auto& r) { r.options.target_acceptance = 0.4; }},
+      {"centre = weighted_mean, this run has plain_mean",
+       [](auto& r) { r.options.centre = tmcmc::Centre::plain_mean; }},
+      {"coordinates = natural, this run has unbounded",
+       [](auto& r) { r.options.coordinates = tmcmc::Coordinates::unbounded; }},
+      {"random_subsets = no, this run has yes", [](auto& r) { r.options.random_subsets = true; }},
+      {"independent_fraction = 0, this run has 0.5", [](auto& r) { r.options.independent_fraction = 0.5; }},
+      {"cross_fit = no, this run has yes", [](auto& r) { r.options.cross_fit = true; }},
+      {"boundary = reject, this run has redraw",
+       [](auto& r) { r.options.boundary = tmcmc::Boundary::redraw; }},
+      {"max_redraws = 100000, this run has 7", [](auto& r) { r.options.max_redraws = 7; }},
+      {"infeasible_level = -inf, this run has -1000", [](auto& r) { r.options.infeasible_level = -1000.0; }},
+      {"minimum_step = 1e-15, this run has 1e-10", [](auto& r) { r.options.minimum_step = 1e-10; }},
+      {"evaluation_budget = 0, this run has 99", [](auto& r) { r.options.evaluation_budget = 99; }},
+      {"diagnose = yes, this run has no", [](auto& r) { r.options.diagnose = false; }},
+      {"study = 0, this run has 1", [](auto& r) { r.key.study = 1; }},
+      {"arm = 0, this run has 1", [](auto& r) { r.key.arm = 1; }},
+      {"run = 0, this run has 1", [](auto& r) { r.key.run = 1; }},
+      {"prior.lower = -5 -5 -5, this run has -6 -5 -5",
+       [](auto& r) {
+         r.prior = {Eigen::Vector3d(-6, -5, -5), r.prior.upper()};
+       }},
+      {"prior.upper = 5 5 5, this run has 5 5 6",
+       [](auto& r) {
+         r.prior = {r.prior.lower(), Eigen::Vector3d(5, 5, 6)};
+       }},
+      {"model = the ridge, this run has the ridge\\x1B, with a crack",
+       [](auto& r) { r.model += "\x1B, with a crack"; }}};
+  for (const auto& [what, change] : changes) {
+    CAPTURE(what);
+    CHECK_THAT(with(change), StartsWith("checkpoint was made with " + what));
+  }
+  CHECK(changes.size() + 2 == archive::settings(written.run).size());
+  CHECK(with([](auto& r) { r.options.threads = 3; }) == "accepted");
+  CHECK(with([](auto& r) { r.options.batch_rows = 0; }) == "accepted");
+  CHECK(with([](auto& r) { r.options.max_stages = 50; }) == "accepted");
+  CHECK_THAT(with([](auto& r) { r.options.max_stages = 1; }),
+             Contains("expected at most options.max_stages = 1, not 2"));
+  CHECK_THROWS_WITH(archive::settings({small(), {}, ridge().prior, "two\nlines"}), Contains("one line"));
+}
+
+TEST_CASE("a file whose checksum fits is still read with care", "[archive][fault]") {
+  const Written written;
+  const std::vector<std::pair<std::string, std::string>> lines = {
+      {"stage = 2\n", "stage = 3\n"},           {"stage = 2\n", "stage = two\n"},
+      {"stage = 2\n", "stage = 2 2\n"},         {"stage = 2\n", ""},
+      {"points: 12\n", "points: 11\n"},         {"points: 12\n", "points: 13\n"},
+      {"points: 12\n", "points: -1\n"},         {"points: 12\n", "points: 12\n\n"},
+      {"points: 12\n", "points: 12\n1 2 3\n"},  {"influence: 3\n", "influence: 99999999999999\n"},
+      {"ancestors: 2\n", "ancestors: 2\n 1\n"}, {"ancestors: 2\n", "ancestors: 3\n12\n"},
+      {"parents: 3\n\n", "parents: 3\n0\n"},    {"chains = 12\n", "chains = 0\n"}};
+  for (const auto& [line, by] : lines) {
+    CAPTURE(line, by);
+    put(written.path, forged(written.text, line, by));
+    CHECK(refusal(written.path, written.run) != "accepted");
+  }
+  put(written.path, forged(written.text, "stage = 2\n", "stage = 2\n"));
+  CHECK(refusal(written.path, written.run) == "accepted");
+}
+
+TEST_CASE("a path that cannot be written is found out before the first evaluation", "[archive][fault]") {
+  const TemporaryDirectory directory;
+  bool called = false;
+  CHECK_THROWS_AS(
+      archive::run_with_checkpoint(directory.path() / "none" / "run.checkpoint", described(small()),
+                                   [&](const auto&, auto values) {
+                                     called = true;
+                                     values.setZero();
+                                   }),
+      io::OutputError);
+  CHECK_FALSE(called);
+}

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# A model of one's own: the example, the same model as a program, programs that fail in every way, a run that is killed.
+source "$(dirname "$0")/support.sh"
+cp -r "$source/data/examples" data/examples
+export TMPDIR=$work/tmp
+mkdir -p "$TMPDIR"
+own="$bin/own_model --evaluations 2600 --quiet"
+
+$own --output whole.csv --netcdf whole.nc
+check "a row a sample and a header" test "$(wc -l <whole.csv)" -gt 1000
+check "the true stiffnesses are within 4 standard deviations" awk -F, '
+  NR > 1 { n++; for (j = 1; j <= 2; j++) { s[j] += $j; q[j] += $j * $j } }
+  END { for (j = 1; j <= 2; j++) { mean = s[j] / n; sd = sqrt(q[j] / n - mean * mean); z = (mean - (j == 1 ? 0.9 : 1.2)) / sd; if (z * z > 16) exit 1 } }' whole.csv
+check "nothing is left beside the results" test "$(ls | tr '\n' ' ')" = "data tmp whole.csv whole.nc "
+$own --threads 1 --output threads.csv --netcdf again.nc
+check "threads change nothing" cmp -s whole.csv threads.csv
+check "the NetCDF file has the same bytes" cmp -s whole.nc again.nc
+
+# Readers that are not ours.
+if command -v ncdump >/dev/null; then
+  header=$(ncdump -h whole.nc)
+  for text in 'group: posterior' 'group: sample_stats' 'group: observed_data' 'double stiffness_1(chain, draw)' 'chain = 1 ;' \
+    'double log_likelihood(chain, draw)' 'double frequency_hz(observation)'; do
+    check "ncdump: $text" grep -qF "$text" <<<"$header"
+  done
+  check "ncdump reads the samples" awk -v a="$(awk -F, 'NR == 2 { print $1 }' whole.csv)" -v b="$(ncdump -v posterior/stiffness_1 -p 17,17 whole.nc |
+    sed -n '/stiffness_1 = *$/,$p' | grep -oE '[0-9]+\.[0-9]+' | head -n 1)" 'BEGIN { exit !(a + 0 == b + 0 && a > 0) }'
+else echo 'ncdump is not installed: left out'; fi
+if /usr/bin/python3 -c 'import xarray' 2>/dev/null; then
+  check "xarray" /usr/bin/python3 - <<'PY'
+import csv, xarray
+posterior = xarray.open_dataset("whole.nc", group="posterior", engine="h5netcdf")
+rows = list(csv.DictReader(open("whole.csv")))
+assert posterior.sizes == {"chain": 1, "draw": len(rows)}
+for name in ("stiffness_1", "stiffness_2", "relative_noise"):
+    assert [float(row[name]) for row in rows] == posterior[name].values[0].tolist()
+PY
+else echo 'xarray is not installed: left out'; fi
+
+# The model as a program: the same posterior but for the rounding of another exponential and logarithm.
+$own --command data/examples/two_storey_frame.py --output program.csv
+check "the program gives the same posterior" awk -F, 'NR == FNR { for (j = 1; j <= 3; j++) a[FNR, j] = $j; next }
+  FNR > 1 { for (j = 1; j <= 3; j++) if (($j - a[FNR, j]) ^ 2 > (1e-9 * $j) ^ 2) bad++ } END { exit bad > 0 }' whole.csv program.csv
+
+# Programs that fail. Each message names the program, what it did and a point; the directory of the points is gone.
+script() { printf '#!/bin/sh\n%s\n' "$1" >program.sh; chmod +x program.sh; }
+fails() {  # TEXT
+  expect_error 1 "$1" $own --threads 1 --command ./program.sh --timeout 2 --output failed.csv
+  check "the point is named ($1)" grep -q 'stiffness_1 = ' <($own --threads 1 --command ./program.sh --timeout 2 --output failed.csv 2>&1)
+}
+rows='echo log_likelihood >"$2"; awk "NR > 1 { print -NR }" "$1"'
+script 'exit 3';                                   fails 'ended with status 3'
+script 'kill -SEGV $$';                            fails 'was ended by signal 11'
+script 'true';                                     fails 'wrote no log-likelihoods'
+script "$rows | head -n 5 >>\"\$2\"";              fails 'wrote 5 log-likelihoods for 200 points; point 6 of 200'
+script "$rows >>\"\$2\"; echo 1 >>\"\$2\"";        fails 'wrote 201 log-likelihoods for 200 points'
+script "$rows | sed 4s/.*/abc/ >>\"\$2\"";         fails "wrote the log-likelihood 'abc': expected a number or -inf; point 4 of 200"
+script 'echo nonsense >"$2"; echo 1 >>"$2"';       fails 'log_likelihood'
+script 'sleep 60 & sleep 60';                      fails 'took more than 2 s and was killed'
+check "nothing it started is left" test -z "$(pgrep -f 'sleep 60' || true)"
+script "$rows | sed 4s/.*/nan/ >>\"\$2\""
+expect_error 1 'log-likelihood is nan at (' $own --command ./program.sh --output failed.csv
+expect_error 1 'missing.sh: No such file' $own --command ./missing.sh --output failed.csv
+expect_error 1 'expected a program that can be run' $own --command ./whole.csv --output failed.csv
+check "the directories of the points are gone" test -z "$(ls "$TMPDIR")"
+
+# Breaks in the fifth call: what was done is kept, and the mended program goes on to the same result.
+cat >program.sh <<'SH'
+#!/bin/sh
+echo call >>"$COUNTER"
+[ -e "$MENDED" ] || [ "$(wc -l <"$COUNTER")" -lt 20 ] || exit 7
+exec "$MODEL" "$@"
+SH
+export COUNTER=$work/counter MENDED=$work/mended MODEL=$work/data/examples/two_storey_frame.py
+$own --threads 1 --command ./program.sh --output kept.csv 2>error.txt
+check "status of a broken run" test $? = 1
+check "says what is kept" grep -q 'ended with status 7.*the samples after stage [0-9]* .* are kept in kept.csv.checkpoint' error.txt
+check "no result yet" test ! -e kept.csv
+touch "$MENDED"
+$own --threads 1 --command ./program.sh --output kept.csv
+check "goes on to the same result" cmp -s program.csv kept.csv
+check "the checkpoint is gone" test ! -e kept.csv.checkpoint
+
+# Killed at random moments, the same command ends with the same bytes.
+rm -f "$COUNTER"
+for delay in 0.2 0.5 0.9 1.4; do
+  { timeout -s KILL "$delay" $own --threads 1 --command ./program.sh --output killed.csv; } 2>/dev/null
+done
+$own --threads 1 --command ./program.sh --output killed.csv
+check "killed four times" cmp -s program.csv killed.csv
+
+# Bad input.
+expect_error 2 "column 'mode': value '3': expected 1 or 2" $own --observations <(printf 'mode,frequency_hz\n3,4\n') --output whole.csv
+expect_error 2 "column 'frequency_hz': value '-4': expected a positive number" $own --observations <(printf 'mode,frequency_hz\n1,-4\n') --output whole.csv
+sed 's/stiffness_1/stiffness_9/' data/examples/frame_prior.csv >prior.csv
+expect_error 2 "prior.csv:2: column 'parameter': value 'stiffness_9'" $own --prior prior.csv --output whole.csv
+expect_error 2 '--timeout' $own --timeout -1
+$own --threads 1 --command ./program.sh --checkpoint other --output other.csv 2>/dev/null & sleep 1.2; kill -KILL $! 2>/dev/null; wait $! 2>/dev/null
+[ -e other ] && expect_error 2 'other' $own --seed 2 --checkpoint other --output other.csv
+finish
