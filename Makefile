@@ -315,8 +315,9 @@ sanitize: | sanitize-deps
 	  cmake --build --preset $$preset && ctest --preset $$preset -j $$(nproc) || exit 1; done
 
 tidy: | sanitize-deps
-	cmake --preset tsan >/dev/null
-	run-clang-tidy -quiet -p build/tsan '/(src|experiments|bench)/.*\.cpp$$' 2>&1 | tools/tidy_report
+	cmake -S . -B build/tidy -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DTMCMC_BUILD_TESTS=OFF \
+	  -DTMCMC_BUILD_BENCHMARKS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+	run-clang-tidy -quiet -p build/tidy '/(src|experiments|bench)/.*\.cpp$$' 2>&1 | tools/tidy_report
 
 coverage: | coverage-deps
 	cmake --preset coverage >/dev/null
@@ -328,7 +329,7 @@ coverage: | coverage-deps
 mutations: $(BUILD)/.built
 	tests/mutations/run
 
-identical: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
+identical: | sanitize-deps $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	tools/identical_bytes
 
 # ---------------------------------------------------------------- the libraries elsewhere

@@ -21,8 +21,9 @@ std::vector<double> graded_mesh(double lower, double upper, const std::vector<do
              drop(mode, mode + fraction * (end - mode)) > 1.0) {
         fraction *= 0.5;
       }
-      for (; fraction < 1.0; fraction *= 2.0) {
+      while (fraction < 1.0) {
         mesh.push_back(mode + fraction * (end - mode));
+        fraction *= 2.0;
       }
       mesh.push_back(end);
     }

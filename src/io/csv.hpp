@@ -97,7 +97,7 @@ class CsvWriter {
  public:
   /// Opens the output ("-" is standard output) and writes the header. Throws OutputError if it cannot be
   /// opened, std::logic_error if there is no column or a column name is empty or repeated.
-  CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns);
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
   /// Writes one row: each argument a number, a text, or a vector or span of doubles or texts that fills
   /// several cells. Doubles are written by format_number. Texts are quoted where they must be; one with a

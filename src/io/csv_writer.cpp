@@ -57,7 +57,7 @@ std::string format_number(double value) {
   return text;
 }
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns)
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
     : file_((checked(columns), path)), columns_(columns.size()) {
   for (const std::string& column : columns) append(std::string_view(column));
   end_row();

@@ -86,7 +86,7 @@ std::vector<std::size_t> matching_rows(const io::CsvTable& list, std::size_t row
 }
 
 std::string checked_key(const io::CsvTable& list, std::size_t row) {
-  const std::string key(list.cell(row, "key"));
+  std::string key(list.cell(row, "key"));
   if (key.empty() || key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
     list.fail(row, "key", "lower-case letters, digits and hyphens");
   }

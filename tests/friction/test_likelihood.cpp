@@ -243,6 +243,20 @@ TEST_CASE("infeasible friction forces have the value asked for", "[friction][lik
   CHECK(Likelihood(test_data::table1(), exact).infeasible_log_likelihood() == -infinity);
 }
 
+TEST_CASE("the order of the observations leaves the limit of continuous motion as it is", "[friction][likelihood]") {
+  const Observations data = test_data::table1();
+  Observations reversed = data;
+  for (auto* column :
+       {&reversed.nominal_ratio, &reversed.measured_ratio, &reversed.driving_frequency_hz, &reversed.phase_deg}) {
+    std::reverse(column->begin(), column->end());
+  }
+  const Eigen::MatrixXd points = random_points(500, 8);
+  const Eigen::VectorXd values = evaluate(Likelihood(data, exact), points);
+  const Eigen::VectorXd others = evaluate(Likelihood(reversed, exact), points);
+  CHECK((values.array() == -infinity).count() > 50);
+  CHECK(((values.array() == -infinity) == (others.array() == -infinity)).all());
+}
+
 TEST_CASE("the likelihood is the product of its two parts", "[friction][likelihood]") {
   const Observations data = test_data::table1();
   const Likelihood likelihood(data, exact);

@@ -223,6 +223,17 @@ TEST_CASE("N_eff = N allows a step of zero alone", "[tmcmc][transition]") {
   CHECK(t.step == 0.0);
 }
 
+TEST_CASE("a target next to N is met where N_eff rounds to more than N on the way", "[tmcmc][transition]") {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Values values = skewed(30, 1000.0, seed);
+    const Transition t = choose_step(values, 1.0, tmcmc::effective_sample_size_rule(1.0 - 1e-12));
+    INFO("seed " << seed);
+    CHECK(t.status == TransitionStatus::solved);
+    CHECK(t.effective_sample_size / 30.0 <= 1.0 + 1e-15);
+    CHECK_THAT(t.coefficient_of_variation, WithinRel(1e-6, 1e-3));
+  }
+}
+
 TEST_CASE("a step below 1e-300 counts as zero, whatever the rule", "[tmcmc][transition]") {
   Values l(100, -1.7e308);
   std::fill(l.begin(), l.begin() + 10, 1.7e308);
