@@ -11,7 +11,7 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling clean
+.PHONY: help deps build all results figures paper compare test verify another-seed identical fuzz bench scaling clean
 .SECONDARY:
 
 help:
@@ -26,6 +26,7 @@ help:
 	@echo 'make verify    regenerate everything into build/verify and compare with the committed files'
 	@echo 'make another-seed  replicated studies with SEED=2, and whether every verdict is the same'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
+	@echo 'make fuzz      libFuzzer on the CSV reader and the command line, $(FUZZ_SECONDS) s each, with sanitizers'
 	@echo 'make bench     measure speed (Google Benchmark)'
 	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
 	@echo 'make clean     remove build/ and what is not committed'
@@ -37,15 +38,22 @@ PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev libran
   catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
   texlive-latex-recommended texlive-fonts-recommended
 
+FUZZ_PACKAGES := clang libclang-rt-14-dev libomp-dev
+
+# $(call install,PACKAGES): those of them that are missing
+define install
+@missing=$$(for p in $(1); do \
+  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+if [ -n "$$missing" ]; then \
+  echo "installing" $$missing; \
+  if [ "$$(id -u)" = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
+  $$as_root apt-get update -qq && \
+  $$as_root DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
+fi
+endef
+
 deps:
-	@missing=$$(for p in $(PACKAGES); do \
-	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
-	if [ -n "$$missing" ]; then \
-	  echo "installing" $$missing; \
-	  if [ "$$(id -u)" = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
-	  $$as_root apt-get update -qq && \
-	  $$as_root DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; \
-	fi
+	$(call install,$(PACKAGES))
 
 # ---------------------------------------------------------------- executables
 
@@ -286,6 +294,19 @@ scaling: $(BIN)/scaling
 	@mkdir -p $(SCALING)
 	$< --output $(SCALING)/scaling.csv
 	figures/draw scaling $(SCALING) $(SCALING)
+
+# Seconds a target. What a target finds interesting stays in build/fuzz, and so does what breaks it.
+FUZZ_SECONDS ?= 30
+FUZZ_TARGETS := csv options
+
+fuzz: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
+	$(call install,$(FUZZ_PACKAGES))
+	@mkdir -p build/fuzz/corpus/csv build/fuzz/corpus/options
+	cmake --preset fuzz >build/fuzz.configure.log 2>&1 || { cat build/fuzz.configure.log; false; }
+	cmake --build --preset fuzz
+	@for t in $(FUZZ_TARGETS); do echo "fuzz: $$t, $(FUZZ_SECONDS) s"; \
+	  build/fuzz/bin/fuzz_$$t -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 \
+	    -artifact_prefix=build/fuzz/$$t- build/fuzz/corpus/$$t tests/fuzz/corpus/$$t || exit 1; done
 
 identical: | $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	tools/identical_bytes
