@@ -12,7 +12,7 @@ CMAKE_FLAGS ?=
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs \
-  sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
+  fuzz fuzz-deps sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
 .SECONDARY:
 
 help:
@@ -32,6 +32,7 @@ help:
 	@echo 'make mutations deliberate faults in src/, and which test sees each (half an hour)'
 	@echo 'make another-seed  replicated studies with SEED=2, and whether every verdict is the same'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
+	@echo 'make fuzz      libFuzzer on the CSV reader and the command line, $(FUZZ_SECONDS) s each, with sanitizers'
 	@echo 'make bench     measure speed (Google Benchmark)'
 	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
 	@echo 'make install   install the libraries, their headers and the CMake package into $(PREFIX) (PREFIX=...)'
@@ -46,9 +47,10 @@ PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev libran
   texlive-latex-recommended texlive-fonts-recommended
 
 doc-deps: PACKAGES := doxygen
-sanitize-deps: PACKAGES := clang clang-tidy libomp-dev
+sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
 coverage-deps: PACKAGES := gcovr
-deps doc-deps sanitize-deps coverage-deps:
+fuzz-deps: PACKAGES := clang libclang-rt-14-dev libomp-dev
+deps doc-deps sanitize-deps coverage-deps fuzz-deps:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -328,6 +330,17 @@ coverage: | coverage-deps
 
 mutations: $(BUILD)/.built
 	tests/mutations/run
+
+FUZZ_SECONDS ?= 30
+FUZZ_TARGETS := csv options
+
+fuzz: | fuzz-deps
+	@mkdir -p build/fuzz/corpus/csv build/fuzz/corpus/options
+	cmake --preset fuzz >build/fuzz.configure.log 2>&1 || { cat build/fuzz.configure.log; false; }
+	cmake --build --preset fuzz
+	@for t in $(FUZZ_TARGETS); do echo "fuzz: $$t, $(FUZZ_SECONDS) s"; \
+	  build/fuzz/bin/fuzz_$$t -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 \
+	    -artifact_prefix=build/fuzz/$$t- build/fuzz/corpus/$$t tests/fuzz/corpus/$$t || exit 1; done
 
 identical: | sanitize-deps $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	tools/identical_bytes

@@ -18,6 +18,8 @@ namespace {
 const std::vector<std::string> limit_names = {"grid", "supremum"};
 const std::vector<std::string> phase_names = {"discrete-bin", "fourier-coefficient"};
 
+constexpr std::size_t longest_message = 8192;  // more than the longest path
+
 std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
@@ -51,7 +53,7 @@ void Program::add_file_output(const std::string& option, std::string& path, cons
 int Program::run(int argc, char** argv, const std::function<void()>& body) {
   const auto fail = [&](int status, const std::string& message) {
     if (ranks_ == nullptr || ranks_->reports_failure()) {
-      fmt::print(stderr, "{}: error: {}\n", app_.get_name(), message);
+      fmt::print(stderr, "{}: error: {}\n", app_.get_name(), io::printable(message, longest_message));
     }
     return status;
   };

@@ -76,6 +76,21 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+bool has_outside_quotes(std::string_view text, char wanted) {
+  bool quoted = false;
+  for (const char c : text) {
+    if (c == '"') quoted = !quoted;
+    if (c == wanted && !quoted) return true;
+  }
+  return false;
+}
+
 bool drop_plus(std::string_view& text) {
   if (!text.starts_with('+')) return true;
   text.remove_prefix(1);
@@ -86,8 +101,7 @@ bool drop_plus(std::string_view& text) {
 template <class Value>
 std::string_view parse_value(std::string_view text, Value& value, std::string_view expected,
                              std::string_view expected_range) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  text = trimmed(text);
   if (!drop_plus(text)) return expected;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -156,9 +170,7 @@ void CsvTable::parse() {
 void CsvTable::parse_header(std::size_t begin, std::size_t end, std::size_t line) {
   const std::string_view text = view({begin, end - begin});
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
-    const std::size_t first = text.find_first_not_of(" \t");
-    const std::size_t last = text.find_last_not_of(" \t");
-    if (text.find(',') == whole && text.substr(first, last - first + 1).find(separator) != whole) {
+    if (text.find(',') == whole && has_outside_quotes(trimmed(text), separator)) {
       throw InputError(fmt::format("{}:{}: header '{}': expected columns separated by commas, not by {}",
                                    shown(path_), line, printable(text), name));
     }

@@ -28,11 +28,14 @@ void append_number(std::string& out, double value) {
   }
 }
 
+// A byte order mark is no text where it starts the file.
+bool starts_with_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") || text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
 bool needs_quotes(std::string_view text) {
   constexpr std::string_view blanks = " \t";
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // dropped where it starts the file
-  return text.empty() || text.starts_with(byte_order_mark) ||
-         text.find_first_of(",;\"\r\n") != std::string_view::npos ||
+  return text.empty() || starts_with_mark(text) || text.find_first_of(",;\t\"\r\n") != std::string_view::npos ||
          blanks.find(text.front()) != std::string_view::npos ||
          blanks.find(text.back()) != std::string_view::npos;
 }

@@ -66,6 +66,7 @@ expect_error 2 "--driving-force: value '0'" $study --driving-force 0
 expect_error 2 "--driving-force: value 'nan'" $study --driving-force nan
 expect_error 2 "--ess-fraction: value '1.5'" $study --ess-fraction 1.5
 expect_error 2 "--boundary: value 'bounce'" $study --boundary bounce
+expect_error 2 'not expected: wo\trd\x1B[31m (see --help)' $study $'wo\trd\e[31m'
 
 check "the output stayed" grep -q untouched out.csv
 

@@ -312,6 +312,20 @@ TEST_CASE_METHOD(CsvFixture, "rows of the wrong length are a mistake of the prog
   CHECK_THROWS_AS(io::CsvWriter(path, {"a", ""}), std::logic_error);
 }
 
+TEST_CASE_METHOD(CsvFixture, "column names with separators and byte order marks are read back", "[io][csv]") {
+  const std::filesystem::path path = directory.path() / "out.csv";
+  for (const std::string name : {"a;b", "a\tb", "a,b",
+                                 "\xEF\xBB\xBF"
+                                 "a",
+                                 "\xFF\xFE", "\xFE\xFF", " ", "\""}) {
+    CAPTURE(name);
+    io::CsvWriter writer(path, {name});
+    writer.row(1.5);
+    writer.commit();
+    CHECK(CsvTable::read(path).numbers(name) == std::vector<double>{1.5});
+  }
+}
+
 TEST_CASE("a full disk is reported", "[io][csv]") {
   io::CsvWriter writer("/dev/full", {"a"});
   writer.row(1.0);

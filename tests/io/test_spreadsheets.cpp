@@ -48,6 +48,8 @@ TEST_CASE_METHOD(CsvFixture, "spreadsheet files whose meaning is certain are acc
       {"other columns", "note,x\n\"measured, twice\",1.5\n,-2\n"},
       {"semicolons in a cell beside commas", "x,y;z\n1.5,a;b\n-2,\n"},
   };
+  CHECK(table("\"x;y\"\n1\n").numbers("x;y") == std::vector<double>{1.0});
+  CHECK(table("\"x\ty\"\n1\n").numbers("x\ty") == std::vector<double>{1.0});
   for (const auto& [what, content] : files) {
     CAPTURE(what);
     CHECK(table(content).numbers("x") == std::vector<double>{1.5, -2.0});
@@ -78,6 +80,8 @@ TEST_CASE_METHOD(CsvFixture, "spreadsheet files that could mean something else a
        "1: header 'x;y': expected columns separated by commas, not by semicolons"},
       {"semicolons below a header with commas", "x,y\n1;2\n",
        "2: column 'y': missing value: expected 2 cells, as in the header, not 1"},
+      {"semicolons and quotes", "\"x\";\"y\"\n1;2\n",
+       "1: header '\"x\";\"y\"': expected columns separated by commas, not by semicolons"},
       {"a separator line", "sep=;\nx;y\n1;2\n",
        "1: header 'sep=;': expected columns separated by commas, not by semicolons"},
       {"decimal commas and semicolons", "x;y\n1,5;2,5\n",
