@@ -11,7 +11,7 @@ CMAKE_FLAGS ?=
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling clean
+.PHONY: help deps deps-mpi build build-mpi test-mpi bench-mpi all results figures paper compare test verify another-seed identical bench scaling clean
 .SECONDARY:
 
 help:
@@ -27,6 +27,8 @@ help:
 	@echo 'make another-seed  replicated studies with SEED=2, and whether every verdict is the same'
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make bench     measure speed (Google Benchmark)'
+	@echo 'make build-mpi  replicated_study for mpirun, into build/mpi/bin (OpenMPI is installed if missing); docs/clusters.md'
+	@echo 'make test-mpi  the same and its tests;  make bench-mpi  a batch of a slow model on one and two ranks'
 	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
 	@echo 'make clean     remove build/ and what is not committed'
 	@echo 'One file, e.g.: make figures/fig3_pboxes.pdf'
@@ -37,7 +39,10 @@ PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev libran
   catch2 libbenchmark-dev gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
   texlive-latex-recommended texlive-fonts-recommended
 
-deps:
+MPI_PACKAGES := libopenmpi-dev openmpi-bin
+deps-mpi: PACKAGES := $(MPI_PACKAGES)
+
+deps deps-mpi:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -278,6 +283,22 @@ bench: $(BUILD)/.built
 	@mkdir -p build/bench
 	$(BIN)/benchmarks --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
 	  --benchmark_out=build/bench/benchmarks.json --benchmark_out_format=json
+
+# ---------------------------------------------------------------- for mpirun (docs/clusters.md)
+
+build-mpi: | deps-mpi $(if $(filter deps,$(MAKECMDGOALS)),deps)
+	@mkdir -p build
+	cmake --preset mpi $(CMAKE_FLAGS) >build/mpi.configure.log 2>&1 || { cat build/mpi.configure.log; false; }
+	cmake --build --preset mpi --target replicated_study
+
+test-mpi: build-mpi
+	cmake --build --preset mpi --target test_distributed shared_run
+	ctest --preset mpi -R '^distributed'
+
+bench-mpi: build-mpi
+	cmake --build --preset mpi --target shared_batch
+	mpirun -np 1 build/mpi/bin/shared_batch
+	mpirun -np 2 build/mpi/bin/shared_batch
 
 # Times differ from machine to machine: no part of `make all`.
 SCALING ?= build/scaling
