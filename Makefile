@@ -12,7 +12,7 @@ CMAKE_FLAGS ?=
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs \
-  fuzz fuzz-deps sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
+  fuzz fuzz-deps deps-mpi build-mpi test-mpi bench-mpi sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
 .SECONDARY:
 
 help:
@@ -34,6 +34,8 @@ help:
 	@echo 'make identical build with other compilers and instruction sets and compare the bytes of the samples'
 	@echo 'make fuzz      libFuzzer on the CSV reader and the command line, $(FUZZ_SECONDS) s each, with sanitizers'
 	@echo 'make bench     measure speed (Google Benchmark)'
+	@echo 'make build-mpi  replicated_study for mpirun, into build/mpi/bin (OpenMPI is installed if missing); docs/clusters.md'
+	@echo 'make test-mpi  the same and its tests;  make bench-mpi  a batch of a slow model on one and two ranks'
 	@echo 'make scaling   measure time and memory over samples, threads and observations, with figure, into $(SCALING)'
 	@echo 'make install   install the libraries, their headers and the CMake package into $(PREFIX) (PREFIX=...)'
 	@echo 'make docs      API reference by Doxygen, build/docs/html/index.html'
@@ -50,7 +52,8 @@ doc-deps: PACKAGES := doxygen
 sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
 coverage-deps: PACKAGES := gcovr
 fuzz-deps: PACKAGES := clang libclang-rt-14-dev libomp-dev
-deps doc-deps sanitize-deps coverage-deps fuzz-deps:
+deps-mpi: PACKAGES := libopenmpi-dev openmpi-bin
+deps doc-deps sanitize-deps coverage-deps fuzz-deps deps-mpi:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -301,6 +304,22 @@ bench: $(BUILD)/.built
 	@mkdir -p build/bench
 	$(BIN)/benchmarks --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
 	  --benchmark_out=build/bench/benchmarks.json --benchmark_out_format=json
+
+# ---------------------------------------------------------------- for mpirun (docs/clusters.md)
+
+build-mpi: | deps-mpi $(if $(filter deps,$(MAKECMDGOALS)),deps)
+	@mkdir -p build
+	cmake --preset mpi $(CMAKE_FLAGS) >build/mpi.configure.log 2>&1 || { cat build/mpi.configure.log; false; }
+	cmake --build --preset mpi --target replicated_study
+
+test-mpi: build-mpi
+	cmake --build --preset mpi --target test_distributed shared_run
+	ctest --preset mpi -R '^distributed'
+
+bench-mpi: build-mpi
+	cmake --build --preset mpi --target shared_batch
+	mpirun -np 1 build/mpi/bin/shared_batch
+	mpirun -np 2 build/mpi/bin/shared_batch
 
 # Times differ from machine to machine: no part of `make all`.
 SCALING ?= build/scaling

@@ -187,8 +187,10 @@ void Farm::run(const std::function<std::optional<std::string>()>& next,
     return found;
   };
   try {
-    for (dispatcher.hand_out(next); dispatcher.busy(); dispatcher.hand_out(next)) {
+    dispatcher.hand_out(next);
+    while (dispatcher.busy()) {
       if (take_or_wait()) {
+        dispatcher.hand_out(next);  // first, since collecting may take its time
         dispatcher.pass_on(collect);
       }
     }

@@ -5,7 +5,8 @@ source "$(dirname "$0")/../../experiments/support.sh"
 
 # More ranks than processors, as root, and without reading each other's memory: what containers ask for.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
-ranks() { local n=$1; shift; mpirun --oversubscribe -np "$n" "$@"; }
+export OMPI_MCA_rmaps_base_oversubscribe=1
+ranks() { local n=$1; shift; mpirun -np "$n" "$@"; }
 errors() { grep -c 'error: ' "$1"; }
 
 # ---- a log-likelihood that all ranks evaluate
@@ -78,9 +79,10 @@ rank_pid() {  # RANK: process id of a rank of our mpirun
       tr '\0' '\n' <"$process/environ" 2>/dev/null | grep -qx "OMPI_COMM_WORLD_RANK=$1" && echo "${process#/proc/}"
   done
 }
+$study 80 --output whole.csv
 for victim in 1 0 2; do
   rm -f resumed.csv resumed.csv.journal
-  mpirun --oversubscribe -np 3 $study 100 --output resumed.csv 2>died.err &
+  mpirun -np 3 $study 200 --output resumed.csv 2>died.err &
   mpi=$!
   for ((waited = 0; waited < 1000; waited++)); do
     [ -e resumed.csv.journal ] && [ "$(wc -l <resumed.csv.journal)" -ge 5 ] && break
@@ -91,8 +93,32 @@ for victim in 1 0 2; do
   check "rank $victim killed: status" test $? != 0
   check "rank $victim killed: no output, but a journal" test ! -e resumed.csv -a -s resumed.csv.journal
   lines=$(wc -l <resumed.csv.journal)
-  ranks 2 $study 30 --output resumed.csv
-  check "rank $victim killed after $lines lines: the next start ends with the same bytes" cmp whole.csv resumed.csv
+  ranks 2 $study 80 --output resumed.csv
+  echo "rank $victim killed after $((lines - 1)) of 160 rows"
+  check "rank $victim killed: the next start ends with the same bytes" cmp whole.csv resumed.csv
   check "the journal is gone" test ! -e resumed.csv.journal
 done
+
+# ---- the example of a batch job: out of time, it is put back into the queue, and its next start goes on
+mkdir -p stub
+printf '#!/bin/sh\necho "$@" >>requeued\n' >stub/scontrol
+chmod +x stub/scontrol
+job=("$source/docs/examples/replicated_study.slurm" --runs 10 --samples 400 --output job.csv --studies)
+export PATH=$PWD/stub:$PATH SLURM_JOB_ID=7 STUDY=$bin/replicated_study
+bash "${job[@]}" 300 2>job.err &
+batch=$!
+for ((waited = 0; waited < 1000; waited++)); do
+  [ -e job.csv.journal ] && [ "$(wc -l <job.csv.journal)" -ge 5 ] && break
+  sleep 0.02
+done
+kill -TERM $batch
+wait $batch
+check "out of time: status" test $? != 0
+echo "out of time after $(($(wc -l <job.csv.journal) - 1)) of 160 rows"
+check "out of time: back into the queue" test "$(cat requeued)" = "requeue 7"
+check "out of time: a journal and no output" test ! -e job.csv -a -s job.csv.journal
+bash "${job[@]}" 80 --quiet
+check "the requeued job: status" test $? = 0
+check "the requeued job ends with the same bytes" cmp whole.csv job.csv
+check "and is not put back again" test "$(wc -l <requeued)" = 1
 finish
