@@ -176,7 +176,7 @@ void write_checkpoint(const std::filesystem::path& path, const RunDescription& r
 std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path, const RunDescription& run) {
   const Settings expected = settings(run);
   std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) {
+  if ((!std::filesystem::exists(path, error) && !error) || std::filesystem::is_character_file(path, error)) {
     return std::nullopt;
   }
   std::ifstream file(path, std::ios::binary);
@@ -200,8 +200,8 @@ tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDe
                                   const tmcmc::LogLikelihood& log_likelihood,
                                   const tmcmc::Observer& observer) {
   const tmcmc::Problem problem{log_likelihood, run.prior};
-  auto progress = read_checkpoint(path, run);
   io::OutputFile{path};  // a path that cannot be written is better known now than after the first stage
+  auto progress = read_checkpoint(path, run);
   const auto keep = [&](const tmcmc::Progress& now) {
     write_checkpoint(path, run, now);
     if (observer) {

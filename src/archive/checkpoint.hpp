@@ -30,7 +30,7 @@ namespace archive {
 void write_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                       const tmcmc::Progress& progress);
 
-/// Reads a checkpoint of this run; nothing if there is no such file.
+/// Reads a checkpoint of this run; nothing if there is no such file, or a device such as /dev/null.
 /// \throws io::InputError, one line that names the file and what is wrong with it: it cannot be read, is no checkpoint or one
 ///         of another format, is cut off or damaged, was made by a run of other settings (naming the first that differs and
 ///         both values), or holds what tmcmc::require_valid refuses.

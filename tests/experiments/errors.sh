@@ -18,6 +18,7 @@ printf 'a,b\n1,2\n' >other.csv
 make_bad() {  # EXECUTABLE OPTION
   local from
   case $1$2 in
+    own_model--*) from=$(grep -oE -- "$2 CSV=[^ ]+" "help/$1" | cut -d= -f2) ;;
     *--observations) from=data/published/table1_observations.csv ;;
     *--prior) from=data/published/table2_prior.csv ;;
     *--points) from=points.csv ;;
