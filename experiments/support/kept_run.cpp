@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <stdexcept>
+
+#include "io/signals.hpp"
 
 namespace experiments {
 
@@ -11,11 +14,19 @@ tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikel
   if (checkpoint.empty()) {
     return tmcmc::run({log_likelihood, run.prior}, run.options, run.key);
   }
+  const auto say_that_it_is_kept = [&] {
+    io::set_interruption_note(
+        fmt::format("the stages so far are kept in {}, run the same command again to go on", checkpoint));
+  };
+  if (std::filesystem::is_regular_file(checkpoint)) {
+    say_that_it_is_kept();
+  }
   double beta = -1.0;
   std::size_t stages = 0;
   try {
     return archive::run_with_checkpoint(checkpoint, run, log_likelihood,
                                         [&](const tmcmc::Progress& progress) {
+                                          say_that_it_is_kept();
                                           beta = progress.state.beta;
                                           stages = progress.stages.size();
                                         });

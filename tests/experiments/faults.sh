@@ -15,26 +15,6 @@ milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 temporary_files() { find "${1-.}" -name '.*.part'; }
 rows_of() { if [ -e "$1" ]; then wc -l <"$1"; else echo 0; fi; }
 
-# start COMMAND...: in the background, as a process group of its own that listens to signals; output in said.txt
-start() {
-  set -m
-  "$@" >said.txt 2>&1 &
-  pid=$!
-  set +m
-}
-# stop SIGNAL: to the process group, as the terminal does on Ctrl-C. False if it has not ended five seconds later.
-stop() {
-  local tries=0 ended=0
-  kill -s "$1" -- -$pid 2>/dev/null
-  while kill -0 $pid 2>/dev/null && [ $tries -lt 250 ]; do sleep 0.02; tries=$((tries + 1)); done
-  kill -0 $pid 2>/dev/null && { ended=1; kill -KILL -- -$pid; }
-  wait $pid 2>/dev/null; status=$?
-  return $ended
-}
-wait_for() {  # CONDITION...: as long as what was started runs, and at most a minute
-  local tries=0
-  until "$@" || [ $tries = 3000 ] || ! kill -0 $pid; do sleep 0.02; tries=$((tries + 1)); done
-}
 has_temporary_files() { [ -n "$(temporary_files "$1")" ]; }
 has_rows() { [ "$(rows_of "$1")" -ge "$2" ]; }
 pause() { sleep "$(awk -v m="$1" 'BEGIN {print m / 1000}')"; }

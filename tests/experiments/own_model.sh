@@ -95,6 +95,19 @@ expect_error 2 "column 'frequency_hz': value '-4': expected a positive number" $
 sed 's/stiffness_1/stiffness_9/' data/examples/frame_prior.csv >prior.csv
 expect_error 2 "prior.csv:2: column 'parameter': value 'stiffness_9'" $own --prior prior.csv --output whole.csv
 expect_error 2 '--timeout' $own --timeout -1
-$own --threads 1 --command ./program.sh --checkpoint other --output other.csv 2>/dev/null & sleep 1.2; kill -KILL $! 2>/dev/null; wait $! 2>/dev/null
-[ -e other ] && expect_error 2 'other' $own --seed 2 --checkpoint other --output other.csv
+
+# Ctrl-C while the program hangs: ends it too, says what is kept, and the same command goes on.
+rm -f "$COUNTER" "$MENDED"
+export HANGS=$work/hangs
+sed -i 's/exit 7/{ touch "$HANGS"; exec sleep 61; }/' program.sh
+start $own --threads 1 --command ./program.sh --checkpoint other --output other.csv
+wait_for test -e "$HANGS"
+check "ends on Ctrl-C" stop INT
+check "status of Ctrl-C" test "$status" = 130
+check "says what is kept" grep -qx 'own_model: interrupted: the stages so far are kept in other, run the same command again to go on' said.txt
+check "the program has ended" test -z "$(pgrep -f 'sleep 61' || true)"
+expect_error 2 'other: checkpoint was made with' $own --seed 2 --checkpoint other --output other.csv
+touch "$MENDED"
+$own --threads 1 --command ./program.sh --checkpoint other --output other.csv
+check "goes on from Ctrl-C" cmp -s program.csv other.csv
 finish

@@ -68,3 +68,24 @@ finish() {
   echo "$passed passed, $failed failed"
   [ $failed = 0 ] && [ $passed -gt 0 ]
 }
+
+# start COMMAND...: in the background, as a process group of its own that listens to signals; output in said.txt
+start() {
+  set -m
+  "$@" >said.txt 2>&1 &
+  pid=$!
+  set +m
+}
+# stop SIGNAL: to the process group, as the terminal does on Ctrl-C. False if it has not ended five seconds later.
+stop() {
+  local tries=0 ended=0
+  kill -s "$1" -- -$pid 2>/dev/null
+  while kill -0 $pid 2>/dev/null && [ $tries -lt 250 ]; do sleep 0.02; tries=$((tries + 1)); done
+  kill -0 $pid 2>/dev/null && { ended=1; kill -KILL -- -$pid; }
+  wait $pid 2>/dev/null; status=$?
+  return $ended
+}
+wait_for() {  # CONDITION...: as long as what was started runs, and at most a minute
+  local tries=0
+  until "$@" || [ $tries = 3000 ] || ! kill -0 $pid; do sleep 0.02; tries=$((tries + 1)); done
+}
