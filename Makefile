@@ -12,7 +12,7 @@ CMAKE_FLAGS ?=
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs \
-  fuzz fuzz-deps deps-mpi build-mpi test-mpi bench-mpi sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
+  fuzz fuzz-deps mpi-deps reader-deps build-mpi test-mpi bench-mpi sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
 .SECONDARY:
 
 help:
@@ -52,8 +52,9 @@ doc-deps: PACKAGES := doxygen
 sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
 coverage-deps: PACKAGES := gcovr
 fuzz-deps: PACKAGES := clang libclang-rt-14-dev libomp-dev
-deps-mpi: PACKAGES := libopenmpi-dev openmpi-bin
-deps doc-deps sanitize-deps coverage-deps fuzz-deps deps-mpi:
+mpi-deps: PACKAGES := libopenmpi-dev openmpi-bin
+reader-deps: PACKAGES := python3-xarray python3-h5netcdf
+deps doc-deps sanitize-deps coverage-deps fuzz-deps mpi-deps reader-deps:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -278,7 +279,7 @@ README.md: $(README_TABLES) tools/splice
 
 test: $(BUILD)/.built
 	cmake --build --preset release
-	ctest --preset release
+	ctest --preset release -j $$(nproc)
 
 check-manifest:
 	tools/check_manifest $(GEN)/manifest.csv
@@ -307,7 +308,7 @@ bench: $(BUILD)/.built
 
 # ---------------------------------------------------------------- for mpirun (docs/clusters.md)
 
-build-mpi: | deps-mpi $(if $(filter deps,$(MAKECMDGOALS)),deps)
+build-mpi: | mpi-deps $(if $(filter deps,$(MAKECMDGOALS)),deps)
 	@mkdir -p build
 	cmake --preset mpi $(CMAKE_FLAGS) >build/mpi.configure.log 2>&1 || { cat build/mpi.configure.log; false; }
 	cmake --build --preset mpi --target replicated_study

@@ -119,12 +119,11 @@ int main(int argc, char** argv) {
   program.add_file_output("--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
   auto& app = program.app();
   app.add_option("--published", printed_directory, "Directory of the tables as printed")->type_name("DIR");
-  app.add_option("--table1", table1, "Generated observations")->type_name("CSV");
-  app.add_option("--table3", table3, "Our p-box areas")->type_name("CSV");
-  app.add_option("--table4", table4, "Our iteration counts")->type_name("CSV");
-  app.add_option("--replicated", replicated,
-                 "Studies of replicated_study; without them no intervals and verdicts")
-      ->type_name("CSV");
+  program.add_input("--table1", table1, "Generated observations");
+  program.add_input("--table3", table3, "Our p-box areas");
+  program.add_input("--table4", table4, "Our iteration counts");
+  program.add_input("--replicated", replicated,
+                    "Studies of replicated_study; without them no intervals and verdicts");
   inputs.add_prior_to(app);
   physics.add_to(app);
 

@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   std::string points;
   program.set_default_output("-");
-  program.app().add_option("--points", points, "Points: CSV")->required()->type_name("CSV");
+  program.add_input("--points", points, "Points: CSV")->required();
   program.app()
       .add_option("--output", "CSV: the points with the results added")
       ->type_name("FILE")

@@ -161,11 +161,10 @@ int main(int argc, char** argv) {
   program.add_file_output("--histogram-output", histogram_output,
                           "CSV: pooled samples of each sampler (needs --samples-input)");
   auto& app = program.app();
-  app.add_option("--runs-input", runs_input, "Runs of a study: what sampling_study writes to --runs-output")
-      ->type_name("CSV");
-  app.add_option("--samples-input", samples_input,
-                 "Samples of a study: what sampling_study writes to --output")
-      ->type_name("CSV");
+  program.add_input("--runs-input", runs_input,
+                    "Runs of a study: what sampling_study writes to --runs-output");
+  program.add_input("--samples-input", samples_input,
+                    "Samples of a study: what sampling_study writes to --output");
   app.add_option("--exceedance", threshold, "Friction force whose probability to be exceeded is wanted, N")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--points", points, "Grid points of each marginal")->check(CLI::Range(2L, 1000000L));

@@ -15,9 +15,7 @@ int main(int argc, char** argv) {
   std::string input = "data/generated/sampling_study_samples.csv";
   long points = 401;
   program.add_output("CSV: sampler, parameter, x, lower, upper");
-  program.app()
-      .add_option("--input", input, "Samples: CSV with columns sampler, run and parameters")
-      ->type_name("CSV");
+  program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
   program.app()
       .add_option("--points", points, "Grid points between the smallest and the largest sample")
       ->check(CLI::Range(2L, 1000000L));

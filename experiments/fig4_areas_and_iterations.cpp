@@ -17,11 +17,10 @@ int main(int argc, char** argv) {
   std::string printed_areas = published("table3_pbox_area.csv");
   std::string printed_counts = published("table4_iteration_counts.csv");
   program.add_output("CSV: panel, source, category, one column a sampler");
-  auto& app = program.app();
-  app.add_option("--areas", areas, "Table 3 as reproduced")->type_name("CSV");
-  app.add_option("--counts", counts, "Table 4 as reproduced")->type_name("CSV");
-  app.add_option("--printed-areas", printed_areas, "Table 3 as printed")->type_name("CSV");
-  app.add_option("--printed-counts", printed_counts, "Table 4 as printed")->type_name("CSV");
+  program.add_input("--areas", areas, "Table 3 as reproduced");
+  program.add_input("--counts", counts, "Table 4 as reproduced");
+  program.add_input("--printed-areas", printed_areas, "Table 3 as printed");
+  program.add_input("--printed-counts", printed_counts, "Table 4 as printed");
 
   return program.run(argc, argv, [&] {
     const std::vector<std::string> samplers = {"TMCMC", "TMCMC-II"};

@@ -15,9 +15,7 @@ int main(int argc, char** argv) {
                   "Tempering parameter over the stages of all runs (promised in the abstract).");
   std::string input = "data/generated/sampling_study_stages.csv";
   program.add_output("CSV: sampler, run, stage (from 0), beta");
-  program.app()
-      .add_option("--input", input, "Stages: CSV with columns sampler, run, stage, beta")
-      ->type_name("CSV");
+  program.add_input("--input", input, "Stages: CSV with columns sampler, run, stage, beta");
 
   return program.run(argc, argv, [&] {
     const auto table = io::CsvTable::read(input);

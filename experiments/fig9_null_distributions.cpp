@@ -22,10 +22,9 @@ int main(int argc, char** argv) {
                           "CSV: sampler, iterations, runs, share_of_studies, printed");
   program.add_file_output("--printed-output", printed_output,
                           "CSV: sampler, parameter, printed, low, high, p");
-  auto& app = program.app();
-  app.add_option("--replicated", replicated, "Studies written by replicated_study")->type_name("CSV");
-  app.add_option("--table3", table3, "Table 3 as printed")->type_name("CSV");
-  app.add_option("--table4", table4, "Table 4 as printed")->type_name("CSV");
+  program.add_input("--replicated", replicated, "Studies written by replicated_study");
+  program.add_input("--table3", table3, "Table 3 as printed");
+  program.add_input("--table4", table4, "Table 4 as printed");
 
   return program.run(argc, argv, [&] {
     const auto studies = read_studies(replicated);

@@ -93,9 +93,8 @@ int main(int argc, char** argv) {
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
       ".checkpoint, if that is a file");
   auto& app = program.app();
-  app.add_option("--observations", observations_path, "CSV with columns mode (1 or 2), frequency_hz")
-      ->type_name("CSV");
-  app.add_option("--prior", prior_path, "CSV with columns parameter, lower, upper")->type_name("CSV");
+  program.add_input("--observations", observations_path, "CSV with columns mode (1 or 2), frequency_hz");
+  program.add_input("--prior", prior_path, "CSV with columns parameter, lower, upper");
   app.add_option("--evaluations", evaluations, "Budget of log-likelihoods")
       ->check(count("--evaluations", 2600));
   app.add_option("--command", command,

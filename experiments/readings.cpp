@@ -114,8 +114,8 @@ int main(int argc, char** argv) {
   run_options.add_to(app);
   app.add_option("--studies", studies, "Replicated studies a reading")->check(CLI::Range(3L, 1000000L));
   app.add_option("--samples", samples, "N, samples a run")->check(CLI::Range(2L, 1000000000L));
-  app.add_option("--table3", table3, "Table 3 as printed")->type_name("CSV");
-  app.add_option("--table4", table4, "Table 4 as printed")->type_name("CSV");
+  program.add_input("--table3", table3, "Table 3 as printed");
+  program.add_input("--table4", table4, "Table 4 as printed");
 
   return program.run(argc, argv, [&] {
     const auto observations = read_observations(inputs.observations);

@@ -15,9 +15,8 @@ int main(int argc, char** argv) {
   std::string generated = "data/generated", printed = "data/published", paper = "paper";
   program.add_output("TeX: \\reportvalue{KEY}{VALUE} and \\reporttable{KEY}{ROWS}");
   auto& app = program.app();
-  app.add_option("--values", values, "List of values: key, file, where, column, statistic, format")
-      ->type_name("CSV");
-  app.add_option("--tables", tables, "List of tables: key, file, where, columns")->type_name("CSV");
+  program.add_input("--values", values, "List of values: key, file, where, column, statistic, format");
+  program.add_input("--tables", tables, "List of tables: key, file, where, columns");
   app.add_option("--generated", generated, "Directory of the files generated/...")->type_name("DIR");
   app.add_option("--published", printed, "Directory of the files published/...")->type_name("DIR");
   app.add_option("--paper", paper, "Directory of the files paper/...")->type_name("DIR");

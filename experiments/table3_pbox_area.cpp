@@ -13,9 +13,7 @@ int main(int argc, char** argv) {
                   "Area of the p-box of all runs, for each sampler and parameter (Table 3).");
   std::string input = "data/generated/sampling_study_samples.csv";
   program.add_output("CSV in the form of table3_pbox_area.csv: sampler and one column a parameter");
-  program.app()
-      .add_option("--input", input, "Samples: CSV with columns sampler, run and parameters")
-      ->type_name("CSV");
+  program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
 
   return program.run(argc, argv, [&] {
     const auto samples = read_samples(input);

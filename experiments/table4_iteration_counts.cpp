@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   Program program("table4_iteration_counts", "How many runs needed how many iterations (Table 4).");
   std::string input = "data/generated/sampling_study_runs.csv";
   program.add_output("CSV in the form of table4_iteration_counts.csv: iterations and one column a sampler");
-  program.app().add_option("--input", input, "Runs: CSV with columns sampler, iterations")->type_name("CSV");
+  program.add_input("--input", input, "Runs: CSV with columns sampler, iterations");
 
   return program.run(argc, argv, [&] {
     const auto table = io::CsvTable::read(input);

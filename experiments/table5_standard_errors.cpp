@@ -17,9 +17,7 @@ int main(int argc, char** argv) {
   program.add_output(
       "CSV: sampler, parameter, mean, standard_error, posterior_sd, standard_error_independent, "
       "effective_sample_size");
-  program.app()
-      .add_option("--input", input, "Samples: CSV with columns sampler, run and parameters")
-      ->type_name("CSV");
+  program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
 
   return program.run(argc, argv, [&] {
     const auto samples = read_samples(input);

@@ -103,10 +103,10 @@ int main(int argc, char** argv) {
       "CSV of the comparisons of the samplers behind C2 to C5: quantity, statistic, printed, null_low, "
       "null_high, p, ratio, ratio_low, ratio_high, margin");
   auto& app = program.app();
-  app.add_option("--replicated", replicated, "Studies written by replicated_study")->type_name("CSV");
-  app.add_option("--table3", table3, "Table 3 as printed")->type_name("CSV");
-  app.add_option("--table4", table4, "Table 4 as printed")->type_name("CSV");
-  app.add_option("--claims", claims, "Claims: CSV with columns id, place, claim")->type_name("CSV");
+  program.add_input("--replicated", replicated, "Studies written by replicated_study");
+  program.add_input("--table3", table3, "Table 3 as printed");
+  program.add_input("--table4", table4, "Table 4 as printed");
+  program.add_input("--claims", claims, "Claims: CSV with columns id, place, claim");
   inputs.add_observations_to(app);
   inputs.add_prior_to(app);
   run_options.add_seed_to(app);

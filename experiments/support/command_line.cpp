@@ -40,6 +40,13 @@ Program::Program(const std::string& name, const std::string& purpose, distribute
   ranks_ = &ranks;
 }
 
+Program::~Program() = default;
+
+CLI::Option* Program::add_input(const std::string& option, std::string& path,
+                                const std::string& description) {
+  return app_.add_option(option, path, description)->type_name("CSV");
+}
+
 void Program::add_output(const std::string& description) {
   app_.add_option("--output", output_,
                   description + "; '-' is standard output. Without it no file is written")

@@ -28,7 +28,14 @@ class Program {
   /// For a program that mpirun may start as several ranks, which share out its work: one of them speaks.
   Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks);
 
+  ~Program();  // out of line, as add_input: else each experiment compiles most of CLI11 once more
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
   CLI::App& app() { return app_; }
+
+  /// Adds an option for a CSV file that is read.
+  CLI::Option* add_input(const std::string& option, std::string& path, const std::string& description);
 
   /// Adds --output, a CSV file ("-": standard output). Without it no file is written.
   void add_output(const std::string& description);

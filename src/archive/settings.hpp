@@ -14,9 +14,9 @@ namespace archive {
 
 /// All that the numbers of a run depend on.
 struct RunDescription {
-  tmcmc::Options options;
-  tmcmc::StreamKey key;
-  tmcmc::BoxPrior prior;
+  tmcmc::Options options;  ///< threads, batch_rows and max_stages do not count
+  tmcmc::StreamKey key;    ///< of the random streams
+  tmcmc::BoxPrior prior;   ///< bounds of each parameter
   /// One line of the caller's that names all else: the model, its data, their version, and a step rule if one is used.
   std::string model;
 };

@@ -16,19 +16,25 @@
 
 namespace archive {
 
+/// Ends a complaint about a file that only a new start can replace.
 inline constexpr std::string_view start_again = "(delete it to start again)";
 
 /// Builds the text of a file in memory.
 class Writer {
  public:
+  /// The line that says what kind of file it is.
   explicit Writer(std::string_view first_line) : text_(fmt::format("{}\n", first_line)) {}
 
+  /// A line `name = value`; numbers in the shortest digits that read back as the same.
   void line(std::string_view name, std::string_view value) { text_ += fmt::format("{} = {}\n", name, value); }
+  /// \copydoc line
   void line(std::string_view name, double value) { line(name, io::format_number(value)); }
+  /// \copydoc line
   void line(std::string_view name, std::integral auto value) { line(name, std::to_string(value)); }
 
   /// Announces a table of so many rows.
   void table(std::string_view name, std::size_t rows) { text_ += fmt::format("{}: {}\n", name, rows); }
+  /// A whole table, a line a row.
   template <class Number>
   void table(std::string_view name, const std::vector<std::vector<Number>>& rows) {
     table(name, rows.size());
@@ -39,8 +45,11 @@ class Writer {
       end_row();
     }
   }
+  /// A number in the present row, behind a space if it is not the first.
   void cell(double value) { text_ += io::format_number(value) + ' '; }
+  /// \copydoc cell
   void cell(std::integral auto value) { text_ += std::to_string(value) + ' '; }
+  /// Ends the row; it may be empty.
   void end_row() {
     if (text_.back() == ' ') {
       text_.pop_back();
@@ -48,6 +57,7 @@ class Writer {
     text_ += '\n';
   }
 
+  /// All that was written.
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
@@ -60,6 +70,7 @@ class Reader {
   /// Both have to live as long as the reader.
   Reader(const std::filesystem::path& path, std::string_view text) : path_(path), left_(text) {}
 
+  /// \throws io::InputError with the path, what is wrong, and how to start again.
   [[noreturn]] void fail(std::string_view what) const {
     throw io::InputError(fmt::format("{}: {} {}", path_.string(), what, start_again));
   }
@@ -72,6 +83,7 @@ class Reader {
     }
     return line_.substr(name.size() + separator.size());
   }
+  /// The number in the next line, which has this name.
   template <class Number>
   void read(std::string_view name, Number& number) {
     line_ = value(name);
@@ -86,6 +98,7 @@ class Reader {
     end_row();
     return rows;
   }
+  /// A whole table, added to the rows.
   template <class Number>
   void table(std::string_view name, std::vector<std::vector<Number>>& rows) {
     for (std::size_t left = table(name); left > 0; --left) {
@@ -96,6 +109,7 @@ class Reader {
     }
   }
 
+  /// Goes to the next line.
   void next_line() {
     const auto end = left_.find('\n');
     if (end == std::string_view::npos) {
@@ -114,11 +128,13 @@ class Reader {
     }
     line_.remove_prefix(std::min(text.size() + 1, line_.size()));
   }
+  /// Fails if the line has further cells.
   void end_row() const {
     if (!line_.empty()) {
       fail(fmt::format("'{}': expected the end of the line", io::printable(line_)));
     }
   }
+  /// Fails if the file has further lines.
   void end() const {
     if (!left_.empty()) {
       fail("goes on after its last table: expected the checksum");

@@ -16,6 +16,7 @@ using Work = std::function<std::string(const std::string& task)>;
 /// Rank 0's hold on the others, see lead_or_serve.
 class Farm {
  public:
+  /// On rank 0; both have to outlive it.
   Farm(Ranks& ranks, const Work& work) : ranks_(ranks), work_(work) {}
   ~Farm();  ///< tells the other ranks that there is nothing more to do, and waits until they know
   Farm(const Farm&) = delete;
@@ -30,6 +31,7 @@ class Farm {
   void run(const std::function<std::optional<std::string>()>& next,
            const std::function<void(std::string result)>& collect);
 
+  /// Number of ranks, this one included.
   [[nodiscard]] int size() const { return ranks_.size(); }
 
  private:

@@ -16,8 +16,8 @@ class Ranks {
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  [[nodiscard]] int rank() const { return rank_; }
-  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int rank() const { return rank_; }  ///< from 0
+  [[nodiscard]] int size() const { return size_; }  ///< number of ranks
 
   /// Waits until all ranks are here. Work may be shared out only after that.
   /// \throws AnotherRankFailed if one of them failed instead and called reports_failure.

@@ -9,18 +9,21 @@
 
 namespace distributed {
 
+/// What one rank sends to another.
 struct Message {
-  int from = 0;
-  int tag = 0;
-  std::string bytes;
+  int from = 0;       ///< rank of the sender
+  int tag = 0;        ///< says what the bytes are
+  std::string bytes;  ///< as the sender has them
 };
 
 namespace transport {
 
+/// Joins the ranks, once, before all else; takes the arguments that are MPI's own away.
+/// \throws std::runtime_error if MPI cannot be called from several threads.
 void start(int& argc, char**& argv);
-void finish() noexcept;
-[[nodiscard]] int rank();
-[[nodiscard]] int size();
+void finish() noexcept;    ///< leaves them
+[[nodiscard]] int rank();  ///< of this process, from 0
+[[nodiscard]] int size();  ///< number of ranks
 
 /// The smallest of the values that the ranks give. Every rank has to call it.
 [[nodiscard]] int smallest(int value);

@@ -9,7 +9,9 @@ namespace external {
 
 /// How a child ended.
 struct ChildEnd {
-  enum class Kind { exited, signalled, timed_out, not_started } kind;
+  /// By itself, by a signal, killed when the time was over, or never begun.
+  enum class Kind { exited, signalled, timed_out, not_started };
+  Kind kind;  ///< which of them
   int value;  ///< exit status, number of the signal, or errno
 };
 

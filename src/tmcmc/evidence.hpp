@@ -11,7 +11,7 @@ namespace tmcmc {
 
 /// What BridgeEvidence has summed up so far; each vector has one entry a population, the prior being the first.
 struct BridgeSums {
-  double log_evidence = 0.0;
+  double log_evidence = 0.0;    ///< at the last beta
   double least_variance = 0.0;  ///< of independent samples
   std::vector<std::vector<double>>
       influence;  ///< of each chain on the sum of the logarithms; empty before a step
@@ -49,6 +49,7 @@ class BridgeEvidence {
   /// a single chain.
   [[nodiscard]] double standard_error() const;
 
+  /// What a further BridgeEvidence can go on from.
   [[nodiscard]] const BridgeSums& sums() const { return sums_; }
 
  private:

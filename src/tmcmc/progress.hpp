@@ -13,7 +13,7 @@ namespace tmcmc {
 
 /// A run after some of its stages. `resume` goes on from here.
 struct Progress {
-  State state;
+  State state;                      ///< population at the last beta
   std::vector<StageRecord> stages;  ///< so far
   BridgeEvidence bridge;            ///< empty without Options::diagnose
 };

@@ -86,6 +86,8 @@ Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weigh
 
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
   constexpr double rounding = 1e-12;
+  // A pivot just above `rounding` is right to three digits, and so are the pivots behind it, which may come out negative.
+  constexpr double rounding_behind_small_pivots = 1e-2;
   const Index d = covariance.rows();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(d, d);
   for (Index k = 0; k < d; ++k) {
@@ -98,7 +100,7 @@ Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
         pivot = covariance(j, k);
       }
     }
-    if (!std::isfinite(pivot) || pivot < -rounding * covariance(k, k)) {
+    if (!std::isfinite(pivot) || pivot < -rounding_behind_small_pivots * covariance(k, k)) {
       throw SamplingError("the proposal covariance is not positive semidefinite and finite (row " +
                           std::to_string(k) + ")");
     }

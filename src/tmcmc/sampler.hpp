@@ -65,6 +65,8 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
 /// \throws std::invalid_argument for a progress that cannot be of this problem and these options; as run.
 [[nodiscard]] Result resume(const Problem& problem, const Options& options, const StreamKey& key,
                             Progress from, const Observer& observer = {});
+
+/// The same with steps from elsewhere.
 [[nodiscard]] Result resume(const Problem& problem, const Options& options, const StreamKey& key,
                             Progress from, const StepRule& rule, const Observer& observer = {});
 

@@ -39,11 +39,6 @@ RunDescription described(const Options& options) {
   return {options, {.seed = 5}, ridge().prior, "the ridge"};
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 void put(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::remove(path);  // some file systems flush a file that is overwritten
   std::ofstream(path, std::ios::binary) << text;

@@ -56,6 +56,7 @@ small_options() {
     exact_posterior)
       echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv
       return ;;
+    readings) echo --runs 3 --studies 3 --samples 50; return ;;
     scaling) echo --most-samples 1000 --repetitions 1; return ;;
   esac
   local help; help=$("$bin/$1" --help)

@@ -243,11 +243,12 @@ TEST_CASE("infeasible friction forces have the value asked for", "[friction][lik
   CHECK(Likelihood(test_data::table1(), exact).infeasible_log_likelihood() == -infinity);
 }
 
-TEST_CASE("the order of the observations leaves the limit of continuous motion as it is", "[friction][likelihood]") {
+TEST_CASE("the order of the observations leaves the limit of continuous motion as it is",
+          "[friction][likelihood]") {
   const Observations data = test_data::table1();
   Observations reversed = data;
-  for (auto* column :
-       {&reversed.nominal_ratio, &reversed.measured_ratio, &reversed.driving_frequency_hz, &reversed.phase_deg}) {
+  for (auto* column : {&reversed.nominal_ratio, &reversed.measured_ratio, &reversed.driving_frequency_hz,
+                       &reversed.phase_deg}) {
     std::reverse(column->begin(), column->end());
   }
   const Eigen::MatrixXd points = random_points(500, 8);

@@ -2,8 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -292,9 +290,7 @@ TEST_CASE_METHOD(CsvFixture, "the written bytes are plain", "[io][csv]") {
   io::CsvWriter writer(path, {"a", "b c", "d,e"});
   writer.row(1, 0.5, "two\nlines");
   writer.commit();
-  std::ifstream file(path, std::ios::binary);
-  const std::string content(std::istreambuf_iterator<char>(file), {});
-  CHECK(content == "a,b c,\"d,e\"\n1,0.5,\"two\nlines\"\n");
+  CHECK(content(path) == "a,b c,\"d,e\"\n1,0.5,\"two\nlines\"\n");
 }
 
 TEST_CASE_METHOD(CsvFixture, "rows of the wrong length are a mistake of the program", "[io][csv]") {

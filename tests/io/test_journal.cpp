@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,6 @@ const std::string key = "study 1 | seed 7";
 
 class JournalFixture {
  protected:
-  static std::string content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-  }
   void put(const std::string& text) const { std::ofstream(journal, std::ios::binary) << text; }
   /// A journal of all rows, and its bytes.
   std::string filled() const {

@@ -250,6 +250,20 @@ TEST_CASE("a direction without variance gets a zero column", "[tmcmc][proposal]"
   CHECK(cholesky_factor(rounded).col(1).isZero(0.0));
 }
 
+TEST_CASE("rounding behind an almost singular direction is no negative variance", "[tmcmc][proposal]") {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    Weighted s = random_weighted(50, 4, seed);
+    const Eigen::VectorXd first = s.points.col(0);
+    const Eigen::VectorXd second = s.points.col(3);  // in the second parameter only in the sixth digit
+    s.points.col(1) = first + 3e-6 * second;
+    s.points.col(2) = first - second;
+    const Eigen::MatrixXd covariance = covariance_of(s, 1.0, Centre::weighted_mean);
+    const Eigen::MatrixXd factor = cholesky_factor(covariance);
+    CHECK(largest_difference(factor * factor.transpose(), covariance) < 1e-2 * covariance.maxCoeff());
+  }
+}
+
 TEST_CASE("a matrix that is no covariance is refused", "[tmcmc][proposal]") {
   Eigen::MatrixXd m(2, 2);
   m << 1.0, 2.0, 2.0, 1.0;
