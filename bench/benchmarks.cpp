@@ -137,7 +137,7 @@ void normals_reference(benchmark::State& state) {
 BENCHMARK(normals_reference)->Unit(benchmark::kMicrosecond);
 
 void normals_counter_based(benchmark::State& state) {
-  std::vector<double> z(4 * paper_samples);
+  std::vector<double> z(std::size_t{4} * paper_samples);
   for (auto _ : state) {
     for (std::size_t i = 0; i < paper_samples; ++i) {
       const auto w = tmcmc::random_words({.seed = 1}, {.row = i});

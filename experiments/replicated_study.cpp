@@ -73,7 +73,7 @@ void report_column(const Program& program, const std::vector<std::string>& rows,
     }
     std::sort(values.begin(), values.end());
     const auto quantile = [&](double p) {
-      return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1) + 0.5)];
+      return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
     };
     program.report("  {:<28} {:<10} {:>12.5g} {:>12.5g} {:>12.5g}\n", name, arm.name, quantile(0.5),
                    quantile(0.025), quantile(0.975));

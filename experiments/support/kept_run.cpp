@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "io/errors.hpp"
 #include "io/signals.hpp"
 
 namespace experiments {

@@ -200,7 +200,9 @@ tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDe
                                   const tmcmc::LogLikelihood& log_likelihood,
                                   const tmcmc::Observer& observer) {
   const tmcmc::Problem problem{log_likelihood, run.prior};
-  io::OutputFile{path};  // a path that cannot be written is better known now than after the first stage
+  {  // a path that cannot be written is better known now than after the first stage
+    const io::OutputFile writable(path);
+  }
   auto progress = read_checkpoint(path, run);
   const auto keep = [&](const tmcmc::Progress& now) {
     write_checkpoint(path, run, now);

@@ -72,7 +72,7 @@ class SharedLogLikelihood {
       return left;
     }
     const double affordable = rows_ == 0.0 ? 1.0 : seconds_a_task * rows_ / std::max(seconds_, 1e-9);
-    const Index share = left / (4 * farm_.size());
+    const Index share = left / (Index{4} * farm_.size());
     return std::max(Index{1}, static_cast<Index>(std::min(affordable, static_cast<double>(share))));
   }
 

@@ -26,7 +26,8 @@ double log_normal_density(double z, double sd) {
 }
 
 tmcmc::LogLikelihood by_rows(std::function<double(const double*)> function) {
-  return [function](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+  return [function = std::move(function)](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                          Eigen::Ref<Eigen::VectorXd> values) {
     std::vector<double> x(static_cast<std::size_t>(points.cols()));
     for (Index i = 0; i < points.rows(); ++i) {
       for (Index j = 0; j < points.cols(); ++j) {
