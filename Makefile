@@ -12,7 +12,7 @@ CMAKE_FLAGS ?=
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help deps build all results figures paper compare test verify another-seed identical bench scaling install doc-deps docs \
-  fuzz fuzz-deps mpi-deps reader-deps build-mpi test-mpi bench-mpi sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
+  fuzz mpi-deps reader-deps build-mpi test-mpi bench-mpi sanitize sanitize-deps tidy coverage coverage-deps mutations check-manifest clean
 .SECONDARY:
 
 help:
@@ -51,10 +51,9 @@ PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev libran
 doc-deps: PACKAGES := doxygen
 sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
 coverage-deps: PACKAGES := gcovr
-fuzz-deps: PACKAGES := clang libclang-rt-14-dev libomp-dev
 mpi-deps: PACKAGES := libopenmpi-dev openmpi-bin
 reader-deps: PACKAGES := python3-xarray python3-h5netcdf
-deps doc-deps sanitize-deps coverage-deps fuzz-deps mpi-deps reader-deps:
+deps doc-deps sanitize-deps coverage-deps mpi-deps reader-deps:
 	@missing=$$(for p in $(PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
@@ -354,12 +353,12 @@ mutations: $(BUILD)/.built
 FUZZ_SECONDS ?= 30
 FUZZ_TARGETS := csv options
 
-fuzz: | fuzz-deps
+fuzz: | sanitize-deps
 	@mkdir -p build/fuzz/corpus/csv build/fuzz/corpus/options
-	cmake --preset fuzz >build/fuzz.configure.log 2>&1 || { cat build/fuzz.configure.log; false; }
-	cmake --build --preset fuzz
+	cmake --preset asan-ubsan >build/asan-ubsan.configure.log 2>&1 || { cat build/asan-ubsan.configure.log; false; }
+	cmake --build --preset asan-ubsan --target fuzz_targets
 	@for t in $(FUZZ_TARGETS); do echo "fuzz: $$t, $(FUZZ_SECONDS) s"; \
-	  build/fuzz/bin/fuzz_$$t -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 \
+	  build/asan-ubsan/bin/fuzz_$$t -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 \
 	    -artifact_prefix=build/fuzz/$$t- build/fuzz/corpus/$$t tests/fuzz/corpus/$$t || exit 1; done
 
 identical: | sanitize-deps $(if $(filter deps,$(MAKECMDGOALS)),deps)

@@ -20,8 +20,6 @@ namespace {
 using portable_math::exp;
 using portable_math::log;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 template <class Value>
 void require_range(const char* field, Value value, Value low, Value high) {
   if (!(value >= low && value <= high)) {
@@ -62,9 +60,9 @@ Minima local_minima(const std::function<double(double)>& f, const Interval& rang
   std::size_t highest = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     highest = value[i] > value[highest] ? i : highest;
-    const double before = i == 0 ? infinity : value[i - 1];
-    const double after = i + 1 == x.size() ? infinity : value[i + 1];
-    if (!(value[i] < before && value[i] <= after)) {
+    const bool below_left = i == 0 || value[i] < value[i - 1];
+    const bool below_right = i + 1 == x.size() || value[i] <= value[i + 1];
+    if (!(below_left && below_right)) {
       continue;
     }
     const double left = x[i == 0 ? 0 : i - 1];
@@ -144,7 +142,7 @@ ExactPosterior::Pair ExactPosterior::integrate(const friction::Likelihood& likel
   const Interval range = phase ? feasible(prior_range, likelihood) : prior_range;
 
   const Minima minima = local_minima(misfit, range, options.scan_intervals, false);
-  double smallest_misfit = infinity;
+  double smallest_misfit = std::numeric_limits<double>::infinity();
   for (const double x : minima.places) {
     smallest_misfit = std::min(smallest_misfit, misfit(x));
   }

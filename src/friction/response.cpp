@@ -12,7 +12,7 @@ namespace {
 
 using portable_math::sin_cos;
 using portable_math::sin_cos_turns;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double s_quotient(double r, double u, double tau) {
   const auto slow = sin_cos(tau);

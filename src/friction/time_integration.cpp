@@ -18,7 +18,7 @@ namespace friction {
 namespace {
 
 using portable_math::sin_cos;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 template <class T>
 void require(bool valid, const char* field, T value, const char* expected) {

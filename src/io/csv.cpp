@@ -19,18 +19,14 @@ constexpr std::size_t whole = std::string::npos;
 constexpr std::size_t read_chunk_bytes = std::size_t{1} << 18U;
 constexpr std::size_t largest_file_bytes = std::size_t{1} << 32U;
 
-std::string shown(const std::filesystem::path& path) {
-  return printable(path.string(), whole);
-}
-
 [[noreturn]] void fail_unreadable(const std::filesystem::path& path, int error) {
-  throw InputError(fmt::format("{}: cannot be read: {}: expected a CSV file", shown(path),
+  throw InputError(fmt::format("{}: cannot be read: {}: expected a CSV file", printable_path(path),
                                std::generic_category().message(error)));
 }
 
 void require_size(const std::filesystem::path& path, std::size_t bytes) {
   if (bytes <= largest_file_bytes) return;
-  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes", shown(path),
+  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes", printable_path(path),
                                bytes, largest_file_bytes));
 }
 
@@ -143,7 +139,7 @@ void CsvTable::parse() {
   for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"}) {
     if (buffer_.starts_with(mark)) {
       throw InputError(fmt::format("{}:1: column 1: value '{}': expected UTF-8 text, not UTF-16",
-                                   shown(path_), printable(mark)));
+                                   printable_path(path_), printable(mark)));
     }
   }
   std::size_t begin = buffer_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
@@ -160,9 +156,9 @@ void CsvTable::parse() {
     }
     begin = newline + 1;
   }
-  if (names_.empty()) throw InputError(fmt::format("{}:1: empty file: expected a header line", shown(path_)));
+  if (names_.empty()) throw InputError(fmt::format("{}:1: empty file: expected a header line", printable_path(path_)));
   if (lines_.empty()) {
-    throw InputError(fmt::format("{}:{}: no rows: expected at least one row after the header", shown(path_),
+    throw InputError(fmt::format("{}:{}: no rows: expected at least one row after the header", printable_path(path_),
                                  header_line_));
   }
 }
@@ -172,7 +168,7 @@ void CsvTable::parse_header(std::size_t begin, std::size_t end, std::size_t line
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
     if (text.find(',') == whole && has_outside_quotes(trimmed(text), separator)) {
       throw InputError(fmt::format("{}:{}: header '{}': expected columns separated by commas, not by {}",
-                                   shown(path_), line, printable(text), name));
+                                   printable_path(path_), line, printable(text), name));
     }
   }
   std::vector<Cell> header;
@@ -181,12 +177,12 @@ void CsvTable::parse_header(std::size_t begin, std::size_t end, std::size_t line
   for (const Cell cell : header) {
     const std::string_view name = view(cell);
     if (name.empty()) {
-      throw InputError(fmt::format("{}:{}: column {}: value '': expected a column name", shown(path_), line,
+      throw InputError(fmt::format("{}:{}: column {}: value '': expected a column name", printable_path(path_), line,
                                    names_.size() + 1));
     }
     if (has(name)) {
       throw InputError(fmt::format("{}:{}: column {}: value '{}': expected each column name once",
-                                   shown(path_), line, names_.size() + 1, printable(name)));
+                                   printable_path(path_), line, names_.size() + 1, printable(name)));
     }
     names_.emplace_back(name);
   }
@@ -209,7 +205,7 @@ void CsvTable::parse_line(std::size_t begin, std::size_t end, std::size_t line, 
     const std::string name = column < names_.size() ? fmt::format("'{}'", printable(names_[column]))
                                                     : fmt::format("{}", column + 1);
     throw InputError(
-        fmt::format("{}:{}: column {}: {}: expected {}", shown(path_), line, name, value, expected));
+        fmt::format("{}:{}: column {}: {}: expected {}", printable_path(path_), line, name, value, expected));
   };
   const auto value_of = [&](std::size_t from, std::size_t to) {
     return fmt::format("value '{}'", printable(view({from, to - from})));
@@ -271,7 +267,7 @@ std::size_t CsvTable::index(std::string_view column) const {
 void CsvTable::require_columns(std::initializer_list<std::string_view> columns) const {
   for (const std::string_view column : columns) {
     if (has(column)) continue;
-    throw InputError(fmt::format("{}:{}: header '{}': expected a column '{}'", shown(path_), header_line_,
+    throw InputError(fmt::format("{}:{}: header '{}': expected a column '{}'", printable_path(path_), header_line_,
                                  printable(fmt::format("{}", fmt::join(names_, ",")), 200),
                                  printable(column)));
   }
@@ -284,7 +280,7 @@ std::string_view CsvTable::cell(std::size_t row, std::string_view column) const 
 }
 
 void CsvTable::fail(std::size_t row, std::string_view column, std::string_view expected) const {
-  throw InputError(fmt::format("{}:{}: column '{}': value '{}': expected {}", shown(path_), line(row),
+  throw InputError(fmt::format("{}:{}: column '{}': value '{}': expected {}", printable_path(path_), line(row),
                                printable(column), printable(cell(row, column)), expected));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -25,5 +26,8 @@ class OutputError : public std::runtime_error {
 /// The text made safe for a one-line message: control characters and bytes that are not UTF-8 become escapes
 /// (\n, \t, \r, \x1B), and what follows the first `max_bytes` bytes of it becomes "...".
 std::string printable(std::string_view text, std::size_t max_bytes = 40);
+
+/// The whole path, made safe in the same way.
+std::string printable_path(const std::filesystem::path& path);
 
 }  // namespace io

@@ -184,7 +184,7 @@ void OutputFile::discard() noexcept {
 }
 
 void OutputFile::fail(std::string_view action, int error, std::string_view expected) const {
-  const std::string name = path_ == "-" ? "standard output" : printable(path_.string(), std::string::npos);
+  const std::string name = path_ == "-" ? "standard output" : printable_path(path_);
   throw OutputError(fmt::format("{}: {}: {}: expected {}", name.empty() ? "''" : name, action,
                                 std::generic_category().message(error), expected));
 }

@@ -19,13 +19,9 @@ namespace {
 
 constexpr std::size_t checksum_size = 9;  // a tab and eight digits
 
-std::string shown(const std::filesystem::path& path) {
-  return printable(path.string(), std::string::npos);
-}
-
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
   throw OutputError(fmt::format("{}: cannot be written: {}: expected a journal that can be written",
-                                shown(path), std::generic_category().message(error)));
+                                printable_path(path), std::generic_category().message(error)));
 }
 
 }  // namespace
@@ -42,7 +38,7 @@ void Journal::open() {
     fail(path_, errno);
   }
   if (::flock(file_.fd, LOCK_EX | LOCK_NB) != 0) {
-    throw InputError(fmt::format("{}: in use by another process: expected to be alone", shown(path_)));
+    throw InputError(fmt::format("{}: in use by another process: expected to be alone", printable_path(path_)));
   }
 }
 
@@ -62,7 +58,7 @@ void Journal::read_lines() {
           fmt::format("{}:1: made with other inputs or options, or damaged: expected the same, or no journal "
                       "(delete it to "
                       "start again)",
-                      shown(path_)));
+                      printable_path(path_)));
     }
     if (!intact) {
       was_damaged_ = true;

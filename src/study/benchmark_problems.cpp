@@ -12,7 +12,6 @@ namespace study {
 namespace {
 
 using tmcmc::Index;
-using Row = Eigen::Ref<const Eigen::RowVectorXd>;
 using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
 
 constexpr double log_two_pi = 1.8378770664093454836;
@@ -92,7 +91,7 @@ BenchmarkProblem two_normals() {
             return mass * normal_cdf((x - centre_1) / sd_1) +
                    (1.0 - mass) * normal_cdf((x - centre_2) / sd_2);
           },
-      .in_first_mode = [](const Row& x) { return x[0] + x[1] < 0.0; },
+      .in_first_mode = [](const auto& x) { return x[0] + x[1] < 0.0; },
       .first_mode_mass = mass,
       .options = tmcmc::recommended_options(62000)};
   p.options.chains = 100;
@@ -205,7 +204,7 @@ BenchmarkProblem shear_frame() {
       .problem = {by_rows(log_likelihood), cube(2, 0.0, largest)},
       .log_evidence = portable_math::log(first->total() / (largest * largest)),
       .marginal_cdf = [=](Index j, double x) { return j == 0 ? first->cdf(x) : second->cdf(x); },
-      .in_first_mode = [=](const Row& x) { return x[0] < between; },
+      .in_first_mode = [=](const auto& x) { return x[0] < between; },
       .first_mode_mass = first->cdf(between),
       .options = tmcmc::recommended_options(31000)};
   p.options.chains = 100;

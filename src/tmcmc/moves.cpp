@@ -9,12 +9,6 @@
 
 namespace tmcmc {
 
-namespace {
-
-constexpr std::size_t lanes = ProposalLanes::lanes;
-
-}  // namespace
-
 MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
   proposals += other.proposals;
   accepted += other.accepted;
@@ -111,9 +105,10 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
                    proposals.log_correction().begin(), block.thresholds.begin() + candidates, std::minus<>());
     candidates += static_cast<Index>(count);
   };
-  std::array<std::size_t, lanes> outside{};
-  for (Index first = begin; first < end; first += static_cast<Index>(lanes)) {
-    const auto count = static_cast<std::size_t>(std::min(end - first, static_cast<Index>(lanes)));
+  constexpr std::size_t at_once = ProposalLanes::lanes;
+  std::array<std::size_t, at_once> outside{};
+  for (Index first = begin; first < end; first += static_cast<Index>(at_once)) {
+    const auto count = static_cast<std::size_t>(std::min(end - first, static_cast<Index>(at_once)));
     for (std::size_t i = 0; i < count; ++i) {
       const Index position = first + static_cast<Index>(i);
       row_ids[i] = static_cast<std::uint64_t>(rows == nullptr ? position : rows[position]);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double log_step_tolerance = 1e-13;
 constexpr double smallest_step = 1e-300;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// How far the step is beyond the criterion, on a scale that is nearly linear in log(step): log(CoV /
 /// target), and the same through N_eff. Increasing in the step.
@@ -139,7 +138,7 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
     }
   }
 
-  if (excess_low == -infinity) {  // CoV has underflowed to 0: any finite value of that sign will do
+  if (std::isinf(excess_low)) {  // CoV has underflowed to 0: any finite value of that sign will do
     excess_low = -40.0;
   }
   std::uintmax_t iterations = 200;
