@@ -112,8 +112,6 @@ int main(int argc, char** argv) {
                  digits(p.first_mode_mass, 6), mass.mean, mass.standard_deviation);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -11,6 +11,7 @@
 #include <boost/math/distributions/binomial.hpp>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "study/verdict.hpp"
 
 using namespace experiments;
@@ -33,11 +34,11 @@ int main(int argc, char** argv) {
   program.add_output("CSV with one row a sampler and parameter: chi^2 of the ranks, p-values, coverage");
   program.add_file_output("--ranks-output", ranks_output, "CSV of the rank histograms with their 99 % bands");
   auto& app = program.app();
-  app.add_option("--runs", options.replications, "Simulated data sets")->check(CLI::Range(1L, 1000000000L));
+  app.add_option("--runs", options.replications, "Simulated data sets")->transform(count("--runs"));
   app.add_option("--draws", options.draws, "Posterior draws that the truth is ranked among")
-      ->check(CLI::Range(1L, 1000000L));
+      ->transform(count("--draws", 1, 1000000));
   app.add_option("--bins", options.bins, "Bins of the rank histograms; a divisor of draws + 1")
-      ->check(CLI::Range(2L, 1000000L));
+      ->transform(count("--bins", 2, 1000000));
   run_options.add_seed_to(app);
   run_options.add_threads_to(app);
   inputs.add_observations_to(app);
@@ -109,10 +110,6 @@ int main(int argc, char** argv) {
           "{:<12} smallest p after Holm {:.2g}: calibrated {}; {} of {} runs ended before beta = 1\n",
           arm.name, smallest, verdict, result.unfinished, options.replications);
     }
-    for (auto* output : {&csv, &ranks_csv}) {
-      if (*output) {
-        (*output)->commit();
-      }
-    }
+    io::commit_all(csv, ranks_csv);
   });
 }

@@ -160,6 +160,11 @@ int main(int argc, char** argv) {
     }
 
     std::optional<io::CsvWriter> csv;
+    std::optional<io::OutputFile> markdown_file;
+    if (!markdown_output.empty()) {
+      markdown_file.emplace(markdown_output);
+      markdown_file->write(markdown(cells));
+    }
     if (!program.output().empty()) {
       csv.emplace(program.output(),
                   std::vector<std::string>{"table", "row", "column", "printed", "ours", "difference", "low",
@@ -184,13 +189,6 @@ int main(int argc, char** argv) {
                  cell.interval.low, cell.interval.high, cell.p.value, cell.p.standard_error, cell.verdict);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
-    if (!markdown_output.empty()) {
-      io::OutputFile file(markdown_output);
-      file.write(markdown(cells));
-      file.commit();
-    }
+    io::commit_all(csv, markdown_file);
   });
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "study/accuracy.hpp"
 #include "study/verdict.hpp"
 
@@ -55,9 +56,9 @@ int main(int argc, char** argv) {
       "CSV with one row a setting: evaluations, p-box areas, errors of means and log-evidence");
   auto& app = program.app();
   app.add_option("--studies", studies, "K, studies of R runs a setting; areas are given over these")
-      ->check(CLI::Range(1L, 1000000L));
+      ->transform(count("--studies", 1, 1000000));
   app.add_option("--family", only, "Only settings of this family, for example 'recommended'");
-  run_options.add_to(app);
+  run_options.add_to(app, 2);
   inputs.add_observations_to(app);
   inputs.add_prior_to(app);
   physics.add_to(app);
@@ -131,8 +132,6 @@ int main(int argc, char** argv) {
                  a.standard_error_rms, a.warned);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -104,9 +104,7 @@ int main(int argc, char** argv) {
       equal_paths += path.value < 1e-9 && first.stages.size() == second.stages.size() ? 1 : 0;
       stages += static_cast<tmcmc::Index>(rows.size());
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
     program.report("{} stages of {} runs, N = {}\n", stages, options.runs, reading.sampler.samples);
     program.report("largest relative difference\n");
     program.report("  of the steps that CoV = {} and N_eff = {} N choose from one population: {:.1e}\n",

@@ -51,8 +51,6 @@ int main(int argc, char** argv) {
         csv->row(fraction, result.stages.size(), result.final.beta, smallest, stop);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

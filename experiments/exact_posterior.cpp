@@ -9,6 +9,7 @@
 
 #include "estimation/laplace.hpp"
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "portable_math/elementary.hpp"
 
 using namespace experiments;
@@ -166,9 +167,9 @@ int main(int argc, char** argv) {
   program.add_input("--samples-input", samples_input,
                     "Samples of a study: what sampling_study writes to --output");
   app.add_option("--exceedance", threshold, "Friction force whose probability to be exceeded is wanted, N")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--points", points, "Grid points of each marginal")->check(CLI::Range(2L, 1000000L));
-  app.add_option("--bins", bins, "Bins of each histogram")->check(CLI::Range(1L, 1000000L));
+      ->transform(non_negative("--exceedance"));
+  app.add_option("--points", points, "Grid points of each marginal")->transform(count("--points", 2, 1000000));
+  app.add_option("--bins", bins, "Bins of each histogram")->transform(count("--bins", 1, 1000000));
   inputs.add_observations_to(app);
   inputs.add_prior_to(app);
   physics.add_to(app);
@@ -244,10 +245,6 @@ int main(int argc, char** argv) {
     if (histograms) {
       write_histograms(*histograms, samples, bins, posterior);
     }
-    for (auto* output : {&csv, &summary, &marginals, &accuracies, &histograms}) {
-      if (*output) {
-        (*output)->commit();
-      }
-    }
+    io::commit_all(csv, summary, marginals, accuracies, histograms);
   });
 }

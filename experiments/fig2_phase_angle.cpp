@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 
 using namespace experiments;
 
@@ -19,10 +20,10 @@ int main(int argc, char** argv) {
   program.add_output(
       "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio");
   auto& app = program.app();
-  app.add_option("--friction-force", friction_force, "F_mu, N")->check(CLI::NonNegativeNumber);
-  app.add_option("--from", lowest, "Smallest frequency ratio")->check(CLI::PositiveNumber);
-  app.add_option("--to", highest, "Largest frequency ratio")->check(CLI::PositiveNumber);
-  app.add_option("--points", points, "Points of the curves")->check(CLI::Range(2L, 1000000L));
+  app.add_option("--friction-force", friction_force, "F_mu, N")->transform(non_negative("--friction-force"));
+  app.add_option("--from", lowest, "Smallest frequency ratio")->transform(positive("--from"));
+  app.add_option("--to", highest, "Largest frequency ratio")->transform(positive("--to"));
+  app.add_option("--points", points, "Points of the curves")->transform(count("--points", 2, 1000000));
   physics.add_to(app);
 
   return program.run(argc, argv, [&] {
@@ -53,9 +54,7 @@ int main(int argc, char** argv) {
         csv->row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
     program.report("F_mu = {} N (force ratio {:.4f}): continuous motion from r = {:.3f} on\n", friction_force,
                    friction_force / reading.physics.driving_force_n, continuous_from);
     program.report("smallest limit of the force ratio for r >= 0.6: {:.4f}\n", smallest_limit);

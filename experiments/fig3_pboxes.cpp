@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "pbox/pbox.hpp"
 
 using namespace experiments;
@@ -18,7 +19,7 @@ int main(int argc, char** argv) {
   program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
   program.app()
       .add_option("--points", points, "Grid points between the smallest and the largest sample")
-      ->check(CLI::Range(2L, 1000000L));
+      ->transform(count("--points", 2, 1000000));
 
   return program.run(argc, argv, [&] {
     const auto samples = read_samples(input);
@@ -48,8 +49,6 @@ int main(int argc, char** argv) {
         }
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -81,8 +81,6 @@ int main(int argc, char** argv) {
     categories.erase(std::unique(categories.begin(), categories.end()), categories.end());
     add_counts("printed", printed_counts);
     add_counts("reproduced", counts);
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -45,8 +45,6 @@ int main(int argc, char** argv) {
       program.report("{:<12} {:>6} {:>6} {:>12.4g} {:>12.4g} {:>12.4g}\n", key.first, key.second, n,
                      values.front(), 0.5 * (values[(n - 1) / 2] + values[n / 2]), values.back());
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -87,10 +87,6 @@ int main(int argc, char** argv) {
       report_test(printed.counts[i].sampler, verdicts.counts->columns[i]);
     }
     report_test("both", verdicts.counts->test);
-    for (auto* file : {&csv, &counts_csv, &printed_csv}) {
-      if (*file) {
-        (*file)->commit();
-      }
-    }
+    io::commit_all(csv, counts_csv, printed_csv);
   });
 }

@@ -8,6 +8,7 @@
 
 #include "estimation/least_squares.hpp"
 #include "inputs.hpp"
+#include "option_checks.hpp"
 
 using namespace experiments;
 
@@ -39,10 +40,10 @@ int main(int argc, char** argv) {
   auto& app = program.app();
   inputs.add_observations_to(app);
   app.add_option("--phase-noise", options.phase_noise_deg, "sigma of the phase angle, deg")
-      ->check(CLI::PositiveNumber);
+      ->transform(positive("--phase-noise"));
   app.add_option("--frequency-ratio-noise", options.frequency_ratio_noise, "sigma of the frequency ratio")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--starts", options.starts, "Starting points")->check(CLI::Range(1, 1000));
+      ->transform(positive("--frequency-ratio-noise"));
+  app.add_option("--starts", options.starts, "Starting points")->transform(count("--starts", 1, 1000));
   physics.add_to(app);
 
   return program.run(argc, argv, [&] {
@@ -79,14 +80,13 @@ int main(int argc, char** argv) {
     if (csv) {
       write(parameter_columns[0], parameter_columns[2], fit.friction_force);
       write(parameter_columns[1], parameter_columns[3], fit.natural_frequency);
-      csv->commit();
     }
     if (residuals) {
       for (std::size_t i = 0; i < observations.size(); ++i) {
         residuals->row(i + 1, digits(fit.friction_force.residuals[i]),
                        digits(fit.natural_frequency.residuals[i]));
       }
-      residuals->commit();
     }
+    io::commit_all(csv, residuals);
   });
 }

@@ -13,6 +13,7 @@
 
 #include "friction/time_integration.hpp"
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "portable_math/elementary.hpp"
 
 using namespace experiments;
@@ -247,10 +248,10 @@ int main(int argc, char** argv) {
   inputs.add_prior_to(app);
   physics.add_driving_force_to(app);
   app.add_option("--friction-force", friction_force, "Friction force of the errors, N")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--points", points, "Force ratios from 0 to 1")->check(CLI::Range(2L, 100000L));
+      ->transform(non_negative("--friction-force"));
+  app.add_option("--points", points, "Force ratios from 0 to 1")->transform(count("--points", 2, 100000));
   app.add_option("--error-points", error_points, "Frequency ratios of the errors")
-      ->check(CLI::Range(2L, 1000000L));
+      ->transform(count("--error-points", 2, 1000000));
 
   return program.run(argc, argv, [&] {
     const double driving_force = physics.driving_force_n;
@@ -268,10 +269,6 @@ int main(int argc, char** argv) {
     validate_phase(program, csv, observations, driving_force, points);
     published_errors(program, errors, friction_force, driving_force, error_points);
     stick_slip(program, moments, observations, likelihood, posterior, bounds_of(prior));
-    for (auto* output : {&csv, &errors, &moments}) {
-      if (*output) {
-        (*output)->commit();
-      }
-    }
+    io::commit_all(csv, errors, moments);
   });
 }

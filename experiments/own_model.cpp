@@ -96,12 +96,12 @@ int main(int argc, char** argv) {
   program.add_input("--observations", observations_path, "CSV with columns mode (1 or 2), frequency_hz");
   program.add_input("--prior", prior_path, "CSV with columns parameter, lower, upper");
   app.add_option("--evaluations", evaluations, "Budget of log-likelihoods")
-      ->check(count("--evaluations", 2600));
+      ->transform(count("--evaluations", 2600));
   app.add_option("--command", command,
                  "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv")
       ->type_name("PROGRAM");
   app.add_option("--timeout", timeout_seconds, "Most seconds of one call of the program; 0: no limit")
-      ->check(number(
+      ->transform(number(
           "--timeout", [](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"));
   run_options.add_seed_to(app);
   run_options.add_threads_to(app);

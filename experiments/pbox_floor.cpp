@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "pbox/pbox.hpp"
 #include "study/verdict.hpp"
 #include "tmcmc/parallel.hpp"
@@ -74,9 +75,9 @@ int main(int argc, char** argv) {
       "--summary-output", summary_output,
       "CSV of the areas' quantiles over the studies: probability and one column a parameter");
   auto& app = program.app();
-  app.add_option("--samples", samples, "N, draws a run")->check(CLI::Range(2L, 1000000000L));
-  app.add_option("--studies", studies, "K, studies")->check(CLI::Range(1L, 1000000000L));
-  app.add_option("--points", points, "Grid points of each p-box")->check(CLI::Range(2L, 1000000L));
+  app.add_option("--samples", samples, "N, draws a run")->transform(count("--samples", 2));
+  app.add_option("--studies", studies, "K, studies")->transform(count("--studies"));
+  app.add_option("--points", points, "Grid points of each p-box")->transform(count("--points", 2, 1000000));
   run_options.add_to(app);
   inputs.add_observations_to(app);
   inputs.add_prior_to(app);
@@ -129,10 +130,6 @@ int main(int argc, char** argv) {
     if (pbox_csv) {
       write_pboxes(*pbox_csv, exact_runs(posterior, options.seed, 0, run_options.runs, samples), points);
     }
-    for (auto* output : {&csv, &pbox_csv, &summary_csv}) {
-      if (*output) {
-        (*output)->commit();
-      }
-    }
+    io::commit_all(csv, pbox_csv, summary_csv);
   });
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "study/synthetic.hpp"
 
 using namespace experiments;
@@ -112,8 +113,8 @@ int main(int argc, char** argv) {
   auto& app = program.app();
   inputs.add_observations_to(app);
   run_options.add_to(app);
-  app.add_option("--studies", studies, "Replicated studies a reading")->check(CLI::Range(3L, 1000000L));
-  app.add_option("--samples", samples, "N, samples a run")->check(CLI::Range(2L, 1000000000L));
+  app.add_option("--studies", studies, "Replicated studies a reading")->transform(count("--studies", 3, 1000000));
+  app.add_option("--samples", samples, "N, samples a run")->transform(count("--samples", 2));
   program.add_input("--table3", table3, "Table 3 as printed");
   program.add_input("--table4", table4, "Table 4 as printed");
 
@@ -187,8 +188,6 @@ int main(int argc, char** argv) {
         }
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -8,6 +8,7 @@
 #include "archive/settings.hpp"
 #include "distributed/farm.hpp"
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "io/journal.hpp"
 #include "io/signals.hpp"
 #include "study/replication.hpp"
@@ -100,9 +101,9 @@ int main(int argc, char** argv) {
       "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");
   auto& app = program.app();
   app.add_option("--studies", studies, "Number of studies, of both samplers each")
-      ->check(CLI::Range(1L, 100000000L));
+      ->transform(count("--studies", 1, 100000000));
   app.add_option("--first-study", first_study, "Number of the first study, for sharing the work")
-      ->check(CLI::Range(0L, 1000000000L));
+      ->transform(count("--first-study", 0));
   inputs.add_observations_to(app);
   inputs.add_prior_to(app);
   run_options.add_to(app);

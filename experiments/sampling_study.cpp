@@ -177,10 +177,6 @@ int main(int argc, char** argv) {
       }
       report_arm(program, arms[a], results[a], options.threads);
     }
-    for (auto* csv : {&samples_csv, &runs_csv, &stages_csv}) {
-      if (*csv) {
-        (*csv)->commit();
-      }
-    }
+    io::commit_all(samples_csv, runs_csv, stages_csv);
   });
 }

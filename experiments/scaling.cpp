@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "study/synthetic.hpp"
 
 using namespace experiments;
@@ -139,10 +140,10 @@ int main(int argc, char** argv) {
       "CSV, one row a setting: stages and evaluations, best time, peak memory beyond that of 64 samples");
   auto& app = program.app();
   app.add_option("--most-samples", most_samples, "Settings with more samples are left out")
-      ->check(CLI::Range(1000L, 1000000L));
+      ->transform(count("--most-samples", 1000, 1000000));
   app.add_option("--most-threads", most_threads, "Most threads; 0: as many as the machine has")
-      ->check(CLI::Range(0, 4096));
-  app.add_option("--repetitions", repetitions, "Rounds over all settings")->check(CLI::Range(1L, 1000000L));
+      ->transform(count("--most-threads", 0, 4096));
+  app.add_option("--repetitions", repetitions, "Rounds over all settings")->transform(count("--repetitions", 1, 1000000));
 
   return program.run(argc, argv, [&] {
     const RunOptions machine{.threads = most_threads};
@@ -184,8 +185,6 @@ int main(int argc, char** argv) {
                  per_sample, per_evaluation, memory, speedup);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "inputs.hpp"
+#include "option_checks.hpp"
 #include "study/audit.hpp"
 
 using namespace experiments;
@@ -81,13 +82,17 @@ int main(int argc, char** argv) {
   program.add_file_output("--audit-summary-output", summary_output,
                           "CSV of the audit's statistics: estimates, tests, 95 % intervals");
   auto& app = program.app();
-  app.add_option("--friction-force", truth.friction_force_n, "True friction force F_mu, N");
-  app.add_option("--natural-frequency", truth.natural_frequency_hz, "True natural frequency omega_n, Hz");
-  app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg");
+  app.add_option("--friction-force", truth.friction_force_n, "True friction force F_mu, N")
+      ->transform(non_negative("--friction-force"));
+  app.add_option("--natural-frequency", truth.natural_frequency_hz, "True natural frequency omega_n, Hz")
+      ->transform(positive("--natural-frequency"));
+  app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg")
+      ->transform(positive("--phase-noise"));
   app.add_option("--frequency-ratio-noise", truth.frequency_ratio_noise,
-                 "Standard deviation of the frequency ratio");
+                 "Standard deviation of the frequency ratio")
+      ->transform(positive("--frequency-ratio-noise"));
   app.add_option("--alternative", alternative, "Second friction force of the audit, N")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(non_negative("--alternative"));
   run_options.add_seed_to(app);
   inputs.add_observations_to(app);
   physics.add_to(app);
@@ -132,10 +137,6 @@ int main(int argc, char** argv) {
         write_parameter(*summary, parameter_columns[1], {"stated truth"}, a.natural_frequency);
       }
     }
-    for (auto* output : {&csv, &rows, &summary}) {
-      if (*output) {
-        (*output)->commit();
-      }
-    }
+    io::commit_all(csv, rows, summary);
   });
 }

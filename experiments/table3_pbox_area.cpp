@@ -44,8 +44,6 @@ int main(int argc, char** argv) {
         csv->row(samples.samplers[s], areas);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -50,8 +50,6 @@ int main(int argc, char** argv) {
         csv->row(number, cells);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

@@ -54,8 +54,6 @@ int main(int argc, char** argv) {
         }
       }
     }
-    if (csv) {
-      csv->commit();
-    }
+    io::commit_all(csv);
   });
 }

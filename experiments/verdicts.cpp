@@ -203,18 +203,14 @@ int main(int argc, char** argv) {
         csv->row(ids[i], places[i], texts[i], judged.number, name_of(judged.claim), judged.evidence);
       }
     }
-    if (csv) {
-      csv->commit();
-    }
     if (contrasts) {
       write_contrast(*contrasts, "friction_force_n", "ratio of areas", force);
       write_contrast(*contrasts, "natural_frequency_hz", "ratio of areas", frequency);
       write_contrast(*contrasts, "iterations", "two-sample deviance", iterations);
-      contrasts->commit();
     }
     if (markdown_file) {
       markdown_file->write(markdown);
-      markdown_file->commit();
     }
+    io::commit_all(csv, contrasts, markdown_file);
   });
 }

@@ -1,12 +1,16 @@
 #include "command_line.hpp"
 
+#include <fcntl.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <string_view>
 
 #include "io/signals.hpp"
 #include "option_checks.hpp"
@@ -22,6 +26,31 @@ constexpr std::size_t longest_message = 8192;  // more than the longest path
 
 std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
+}
+
+/// A file that is opened later must not get the number of a standard stream that the caller has closed: what is printed
+/// would go into it. Writing to standard output and error fails as before.
+void keep_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) < 0) {
+      ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+  }
+}
+
+/// CLI11 would take the next word for the value.
+void refuse_empty_values(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word(argv[i]);
+    if (word.starts_with("--") && word.ends_with('=')) {
+      throw std::invalid_argument(
+          fmt::format("{}: value '': expected a value (see --help)", word.substr(0, word.size() - 1)));
+    }
+  }
+}
+
+std::string value_of(const CLI::Option& option) {
+  return option.count() > 0 ? option.results().back() : option.get_default_str();
 }
 
 }  // namespace
@@ -57,16 +86,47 @@ void Program::add_file_output(const std::string& option, std::string& path, cons
   app_.add_option(option, path, description)->type_name("FILE");
 }
 
+/// No value is empty, and no file is written that another option reads or writes.
+void Program::check_paths() const {
+  std::vector<const CLI::Option*> files;
+  for (const CLI::Option* option : app_.get_options()) {
+    const bool has_value = option->get_items_expected_max() > 0;
+    if (has_value && option->count() > 0 && option->results().back().empty()) {
+      throw std::invalid_argument(
+          fmt::format("{}: value '': expected a value (see --help)", option->get_name()));
+    }
+    const bool is_file = option->get_type_name() == "FILE" || option->get_type_name() == "CSV";
+    if (is_file && !value_of(*option).empty()) {
+      files.push_back(option);
+    }
+  }
+  for (const CLI::Option* written : files) {
+    for (const CLI::Option* other : files) {
+      if (written != other && written->get_type_name() == "FILE" &&
+          io::is_same_output(value_of(*written), value_of(*other))) {
+        throw std::invalid_argument(fmt::format("{}: value '{}': expected another file than that of {}",
+                                                written->get_name(), io::printable(value_of(*written), 200),
+                                                other->get_name()));
+      }
+    }
+  }
+}
+
 int Program::run(int argc, char** argv, const std::function<void()>& body) {
   const auto fail = [&](int status, const std::string& message) {
     if (ranks_ == nullptr || ranks_->reports_failure()) {
-      fmt::print(stderr, "{}: error: {}\n", app_.get_name(), io::printable(message, longest_message));
+      const std::string line =
+          fmt::format("{}: error: {}\n", app_.get_name(), io::printable(message, longest_message));
+      std::fwrite(line.data(), 1, line.size(), stderr);
     }
     return status;
   };
+  keep_standard_descriptors();
   io::end_cleanly_on_signals(app_.get_name());
   try {
+    refuse_empty_values(argc, argv);
     app_.parse(argc, argv);
+    check_paths();
     if (show_options_) {
       fmt::print("{}", app_.config_to_str(true));
     } else {
@@ -91,8 +151,13 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
     return fail(2, error.what());
   } catch (const tmcmc::InfeasiblePriorError& error) {
     return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "not enough memory: expected fewer samples, runs or points");
   } catch (const std::exception& error) {
     return fail(1, error.what());
+  }
+  if (output_ == "-" && std::ferror(stderr) != 0) {
+    return 2;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     return fail(2, fmt::format("standard output: {}: expected to write the report", std::strerror(errno)));
@@ -131,14 +196,14 @@ void PhysicsOptions::add_to(CLI::App& app) {
                  "Log-likelihood where the motion is not continuous: a number, or -inf")
       ->group("Reading, option by option")
       ->type_name("VALUE")
-      ->check(number(
+      ->transform(number(
           "--infeasible-log-likelihood", [](double x) { return x < 0.0; }, "a negative number or -inf"));
 }
 
 void PhysicsOptions::add_driving_force_to(CLI::App& app) {
   app.add_option("--driving-force", driving_force_n, "k Y_b, N")
       ->type_name("NEWTON")
-      ->check(positive("--driving-force"));
+      ->transform(positive("--driving-force"));
 }
 
 study::Reading PhysicsOptions::reading() const {
@@ -151,27 +216,27 @@ study::Reading PhysicsOptions::reading() const {
 }
 
 void RunOptions::add_seed_to(CLI::App& app) {
-  app.add_option("--seed", seed, "Seed of the random streams")->check([](const std::string& text) {
+  const auto whole = [](std::string& text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size()
-               ? std::string()
-               : fmt::format("--seed: value '{}': expected a whole number from 0 to 2^64 - 1",
-                             io::printable(text));
-  });
+    if (error != std::errc() || end != text.data() + text.size()) {
+      return fmt::format("--seed: value '{}': expected a whole number from 0 to 2^64 - 1", io::printable(text));
+    }
+    text = fmt::format("{}", value);
+    return std::string();
+  };
+  app.add_option("--seed", seed, "Seed of the random streams")->transform(CLI::Validator(whole, "", "--seed"));
 }
 
-void RunOptions::add_to(CLI::App& app) {
-  app.add_option("--runs", runs, "Runs of each sampler")->check(count("--runs"));
+void RunOptions::add_to(CLI::App& app, long least_runs) {
+  app.add_option("--runs", runs, "Runs of each sampler")->transform(count("--runs", least_runs));
   add_seed_to(app);
   add_threads_to(app);
 }
 
 void RunOptions::add_threads_to(CLI::App& app) {
   app.add_option("--threads", threads, "Threads; 0: as many as the machine has. Results do not depend on it")
-      ->check(number(
-          "--threads", [](double x) { return x >= 0.0 && x <= 4096.0 && x == std::floor(x); },
-          "a whole number from 0 to 4096"));
+      ->transform(count("--threads", 0, 4096));
 }
 
 study::StudyOptions RunOptions::study_options() const {

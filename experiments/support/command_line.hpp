@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
@@ -49,15 +50,18 @@ class Program {
   /// Parses, calls body, and turns errors into one line on stderr and an exit status.
   int run(int argc, char** argv, const std::function<void()>& body);
 
-  /// Part of the report, to stdout (to stderr if stdout carries a CSV); nothing with --quiet.
+  /// Part of the report, to stdout (to stderr if stdout carries a CSV); nothing with --quiet. One that cannot be written
+  /// does not stop the work: the exit status tells.
   template <class... Args>
   void report(fmt::format_string<Args...> format, Args&&... args) const {
     if (!quiet_ && leads()) {
-      fmt::print(output_ == "-" ? stderr : stdout, format, std::forward<Args>(args)...);
+      const std::string text = fmt::format(format, std::forward<Args>(args)...);
+      std::fwrite(text.data(), 1, text.size(), output_ == "-" ? stderr : stdout);
     }
   }
 
  private:
+  void check_paths() const;
   [[nodiscard]] bool leads() const { return ranks_ == nullptr || ranks_->rank() == 0; }
 
   CLI::App app_;
@@ -115,7 +119,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
 
-  void add_to(CLI::App& app);
+  void add_to(CLI::App& app, long least_runs = 1);
   void add_seed_to(CLI::App& app);
   void add_threads_to(CLI::App& app);
   [[nodiscard]] study::StudyOptions study_options() const;

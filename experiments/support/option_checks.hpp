@@ -25,11 +25,15 @@ void choose(const std::optional<std::string>& value, const std::vector<std::stri
   }
 }
 
-/// Numbers that `accept` takes.
+/// Numbers that `accept` takes. Like those below for Option::transform: CLI11 then converts what has been checked, and not
+/// the word itself, in which it would take a leading 0 for octal.
 CLI::Validator number(const std::string& option, const std::function<bool(double)>& accept,
                       const std::string& expected);
+/// From 1e-100 to 1e100: squares and ratios neither vanish nor overflow.
 CLI::Validator positive(const std::string& option);
-/// Whole numbers from `least` to 10^9.
-CLI::Validator count(const std::string& option, long least = 1);
+/// 0, or as positive.
+CLI::Validator non_negative(const std::string& option);
+/// Whole numbers from `least` to `most`.
+CLI::Validator count(const std::string& option, long least = 1, long most = 1000000000);
 
 }  // namespace experiments

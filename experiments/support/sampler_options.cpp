@@ -69,7 +69,7 @@ void SamplerOptions::add_to(CLI::App& app) {
   add_choice(app, "--boundary", boundary, boundary_names, "Proposals outside the prior box");
   const auto add = [&](const char* name, auto& value, const CLI::Validator& check,
                        const std::string& in_group, const std::string& description) {
-    app.add_option(name, value, description)->group(in_group)->check(check);
+    app.add_option(name, value, description)->group(in_group)->transform(check);
   };
   add("--move-steps", move_steps, count("--move-steps"), of_reading,
       "Metropolis steps a chain and stage (resample-move)");
@@ -82,7 +82,7 @@ void SamplerOptions::add_to(CLI::App& app) {
   add("--max-stages", max_stages, count("--max-stages"), of_reading, "Most stages a run may take");
   add("--minimum-step", minimum_step, fraction("--minimum-step"), of_reading, "Smallest step of beta");
   app.add_option("--samples", samples, "N, samples a run (1000; recommended: what the budget gives)")
-      ->check(count("--samples", 2));
+      ->transform(count("--samples", 2));
 
   add_choice(app, "--sampler", sampler, sampler_names,
              "Sampler of the reading, or the recommended one; both criteria stay", group);

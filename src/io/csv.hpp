@@ -109,6 +109,9 @@ class CsvWriter {
     end_row();
   }
 
+  /// See OutputFile::prepare.
+  void prepare() { file_.prepare(); }
+
   /// Puts the finished file in place, see OutputFile::commit.
   void commit() { file_.commit(); }
 

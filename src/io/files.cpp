@@ -50,20 +50,48 @@ int open_retrying(const char* path, int flags, mode_t mode = 0) {
   return fd;
 }
 
+struct Target {
+  std::filesystem::path path;  // links followed
+  std::optional<int> descriptor;
+};
+
+Target target_of(const std::filesystem::path& path, std::error_code& error) {
+  Target target{path, descriptor_named_by(path.string())};
+  for (int links = 0; !target.descriptor && std::filesystem::is_symlink(target.path, error); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(target.path, error);
+    if (!error && links == most_links) error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+    if (error) return target;
+    target.path = next.is_absolute() ? next : target.path.parent_path() / next;
+    target.descriptor = descriptor_named_by(target.path.string());
+  }
+  error.clear();  // of a path that does not exist
+  return target;
+}
+
 }  // namespace
+
+bool is_same_output(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  const Target first = target_of(a, error);
+  const Target second = target_of(b, error);
+  if (first.descriptor || second.descriptor) return first.descriptor == second.descriptor;
+  if (std::filesystem::exists(first.path, error) && std::filesystem::exists(second.path, error)) {
+    return std::filesystem::is_regular_file(first.path, error) &&
+           std::filesystem::equivalent(first.path, second.path, error);
+  }
+  const auto place = [&error](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return place(first.path) == place(second.path) && !error;
+}
 
 OutputFile::OutputFile(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
-  target_ = path;
-  std::optional<int> descriptor = descriptor_named_by(path.string());
-  for (int links = 0; !descriptor && std::filesystem::is_symlink(target_, error); ++links) {
-    const std::filesystem::path next = std::filesystem::read_symlink(target_, error);
-    if (error || links == most_links) fail(cannot_open, error ? error.value() : ELOOP, expected_file);
-    target_ = next.is_absolute() ? next : target_.parent_path() / next;
-    descriptor = descriptor_named_by(target_.string());
-  }
-  if (descriptor) {
-    open_descriptor(*descriptor);
+  const Target target = target_of(path, error);
+  target_ = target.path;
+  if (error) fail(cannot_open, error.value(), expected_file);
+  if (target.descriptor) {
+    open_descriptor(*target.descriptor);
   } else {
     if (target_.empty()) fail(cannot_open, ENOENT, expected_file);
     target_ = std::filesystem::absolute(target_, error);
@@ -153,7 +181,7 @@ void OutputFile::write_through(std::string_view text) {
   }
 }
 
-void OutputFile::commit() {
+void OutputFile::prepare() {
   require_open();
   flush();
   // Some file systems cannot sync and say so; that is no failure of the write.
@@ -162,6 +190,12 @@ void OutputFile::commit() {
   const bool closed = ::close(fd_) == 0 || errno == EINTR;
   fd_ = -1;
   if (!closed) fail(cannot_write, errno, expected_whole);
+  prepared_ = true;
+}
+
+void OutputFile::commit() {
+  if (!prepared_) prepare();
+  prepared_ = false;
   if (partial_.empty()) return;
   if (::rename(partial_.c_str(), target_.c_str()) != 0) {
     fail("cannot be put in place", errno, "a path that can be replaced");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,8 +31,12 @@ class OutputFile {
   /// Appends, through a buffer. Throws OutputError, and std::logic_error after commit().
   void write(std::string_view text);
 
-  /// Flushes, syncs to the disk, closes and renames. Throws OutputError, and then the target is as it was;
-  /// std::logic_error if called twice.
+  /// Flushes, syncs to the disk and closes: what can fail for want of room. Throws OutputError, and then the target is as
+  /// it was; std::logic_error if called twice.
+  void prepare();
+
+  /// prepare(), unless that is done, and renames. Throws OutputError, and then the target is as it was; std::logic_error if
+  /// called twice.
   void commit();
 
   /// The path as given.
@@ -55,9 +60,22 @@ class OutputFile {
   std::filesystem::path partial_;  // empty when written in place
   int slot_ = -1;
   int fd_ = -1;
+  bool prepared_ = false;
   bool is_stdout_ = false;
   bool in_place_ = true;
   std::string buffer_;
 };
+
+/// Puts several outputs in place, those that there are: all are prepared before the first is renamed, so that one without
+/// room leaves each as it was. For OutputFile and CsvWriter. Throws OutputError.
+template <class... Outputs>
+void commit_all(std::optional<Outputs>&... outputs) {
+  ((outputs ? outputs->prepare() : void()), ...);
+  ((outputs ? outputs->commit() : void()), ...);
+}
+
+/// Whether two paths lead to one place where an output would be put: the same descriptor, or the same file, through links,
+/// and also if it is not there yet. Devices and pipes may be written to twice.
+[[nodiscard]] bool is_same_output(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace io
