@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "inputs.hpp"
 
@@ -28,26 +29,41 @@ struct Cell {
 void compare(std::vector<Cell>& cells, const std::string& name, const std::string& key,
              const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
              double missing) {
-  const auto printed_keys = printed.text(key);
-  const auto our_keys = ours.text(key);
-  std::vector<std::string> keys = printed_keys;
-  for (const auto& k : our_keys) {
-    if (std::find(keys.begin(), keys.end(), k) == keys.end()) {
+  struct Source {
+    std::map<std::string, std::size_t> rows;
+    std::map<std::string, std::vector<double>> numbers;
+  };
+  const auto source = [&](const io::CsvTable& table) {
+    const auto own_keys = table.text(key);
+    require_once(table, own_keys, key, "each value once");
+    Source result;
+    for (std::size_t row = 0; row < own_keys.size(); ++row) {
+      result.rows.emplace(own_keys[row], row);
+    }
+    for (const auto& column : columns) {
+      result.numbers[column] = table.numbers(column);
+    }
+    return result;
+  };
+  const Source of_printed = source(printed);
+  const Source of_ours = source(ours);
+  auto keys = printed.text(key);
+  for (const auto& k : ours.text(key)) {
+    if (of_printed.rows.count(k) == 0) {
       keys.push_back(k);
     }
   }
-  const auto value = [&](const std::vector<double>& numbers, const std::vector<std::string>& in,
-                         const std::string& k) {
-    const auto found = std::find(in.begin(), in.end(), k);
-    return found == in.end() ? missing : numbers[static_cast<std::size_t>(found - in.begin())];
+  const auto value = [&](const Source& in, const std::string& column, const std::string& k) {
+    const auto found = in.rows.find(k);
+    return found == in.rows.end() ? missing : in.numbers.at(column)[found->second];
   };
   for (const auto& k : keys) {
     for (const auto& column : columns) {
       cells.push_back({.table = name,
                        .row = k,
                        .column = column,
-                       .printed = value(printed.numbers(column), printed_keys, k),
-                       .ours = value(ours.numbers(column), our_keys, k)});
+                       .printed = value(of_printed, column, k),
+                       .ours = value(of_ours, column, k)});
     }
   }
 }
@@ -151,12 +167,16 @@ int main(int argc, char** argv) {
     }
     compare(cells, "Table 3", "sampler", {"friction_force_n", "natural_frequency_hz"},
             printed("table3_pbox_area.csv"), io::CsvTable::read(table3), missing_value);
-    compare(cells, "Table 4", "iterations", {"TMCMC", "TMCMC-II"}, printed("table4_iteration_counts.csv"),
-            io::CsvTable::read(table4), 0.0);
+    const auto printed_counts = printed("table4_iteration_counts.csv");
+    const auto our_counts = io::CsvTable::read(table4);
+    for (const auto* table : {&printed_counts, &our_counts}) {
+      static_cast<void>(positive_integers(*table, "iterations"));
+    }
+    compare(cells, "Table 4", "iterations", {"TMCMC", "TMCMC-II"}, printed_counts, our_counts, 0.0);
     if (!replicated.empty()) {
-      judge(cells, read_studies(replicated),
-            read_printed_tables(printed_directory + "/table3_pbox_area.csv",
-                                printed_directory + "/table4_iteration_counts.csv"));
+      const auto tables = read_printed_tables(printed_directory + "/table3_pbox_area.csv",
+                                              printed_directory + "/table4_iteration_counts.csv");
+      judge(cells, read_studies(replicated, tables), tables);
     }
 
     std::optional<io::CsvWriter> csv;

@@ -11,16 +11,18 @@ using namespace experiments;
 
 namespace {
 
-using Checked = std::vector<double>;
-
-Checked checked(const io::CsvTable& table, const std::string& column, bool zero_allowed) {
-  Checked values = table.numbers(column);
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!(values[row] > 0.0 || (zero_allowed && values[row] == 0.0))) {
-      table.fail(row, column, zero_allowed ? "a number of at least 0" : "a positive number");
-    }
+/// One of the four parameters. The squares of the noise levels have to be positive doubles.
+std::vector<double> parameter(const io::CsvTable& table, std::size_t p) {
+  const std::string& column = parameter_columns[p];
+  if (p == friction::friction_force) {
+    return nonnegative_numbers(table, column);
   }
-  return values;
+  if (p == friction::natural_frequency) {
+    return positive_numbers(table, column);
+  }
+  return checked(
+      table, column, table.numbers(column), [](double x) { return x > 1e-100 && x < 1e100; },
+      "a number between 1e-100 and 1e100");
 }
 
 struct Phases {
@@ -28,8 +30,8 @@ struct Phases {
 };
 
 Phases phases(const io::CsvTable& table, const friction::Physics& physics) {
-  const Checked force = checked(table, "friction_force_n", true);
-  const Checked ratio = checked(table, "frequency_ratio", false);
+  const auto force = nonnegative_numbers(table, "friction_force_n");
+  const auto ratio = positive_numbers(table, "frequency_ratio");
   Phases result;
   for (std::size_t row = 0; row < force.size(); ++row) {
     if (friction::is_singular_ratio(ratio[row])) {
@@ -49,7 +51,7 @@ Phases phases(const io::CsvTable& table, const friction::Physics& physics) {
 std::vector<double> log_likelihoods(const io::CsvTable& table, const friction::Likelihood& likelihood) {
   Eigen::MatrixXd points(static_cast<Eigen::Index>(table.rows()), friction::parameter_count);
   for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
-    const Checked values = checked(table, parameter_columns[j], j == friction::friction_force);
+    const auto values = parameter(table, j);
     points.col(static_cast<Eigen::Index>(j)) =
         Eigen::Map<const Eigen::VectorXd>(values.data(), points.rows());
   }

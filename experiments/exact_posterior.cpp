@@ -43,17 +43,33 @@ struct Columns {
   GroupedColumns file;
   std::vector<std::size_t> places;  ///< of the names asked for
 
-  Columns(const std::string& path, const std::vector<std::string>& names, const char* expected)
-      : file(path.empty() ? GroupedColumns() : read_samples(path)) {
+  Columns(const std::string& path, const std::vector<std::string>& names, const char* expected,
+          void (*check)(const io::CsvTable&) = nullptr) {
+    if (path.empty()) {
+      return;
+    }
+    const auto table = io::CsvTable::read(path);
+    file = read_samples(table);
     for (const auto& name : names) {
       const auto found = std::find(file.columns.begin(), file.columns.end(), name);
-      if (!path.empty() && found == file.columns.end()) {
+      if (found == file.columns.end()) {
         throw io::InputError(fmt::format("{}: no column '{}': expected {}", path, name, expected));
       }
       places.push_back(static_cast<std::size_t>(found - file.columns.begin()));
     }
+    if (check != nullptr) {
+      check(table);
+    }
   }
 };
+
+/// One row a run, and no negative standard deviation.
+void require_runs(const io::CsvTable& table) {
+  require_runs_once(table);
+  for (const auto& name : parameter_columns) {
+    static_cast<void>(nonnegative_numbers(table, "sd_" + name));
+  }
+}
 
 /// What the runs estimate: mean and standard deviation of each parameter, log-evidence.
 std::vector<std::string> estimated_quantities() {
@@ -181,7 +197,7 @@ int main(int argc, char** argv) {
     if (!histogram_output.empty() && samples_input.empty()) {
       throw io::InputError("--histogram-output: expected --samples-input with the samples to count");
     }
-    const Columns runs(runs_input, estimated_quantities(), "the runs of sampling_study");
+    const Columns runs(runs_input, estimated_quantities(), "the runs of sampling_study", require_runs);
     const Columns samples(samples_input, parameter_columns, "the samples of sampling_study");
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);

@@ -41,8 +41,9 @@ int main(int argc, char** argv) {
     const auto add_areas = [&](const char* source, const std::string& path) {
       const auto table = io::CsvTable::read(path);
       const auto names = table.text("sampler");
+      require_once(table, names, "sampler", "each sampler once");
       for (const char* column : {"friction_force_n", "natural_frequency_hz"}) {
-        const auto values = table.numbers(column);
+        const auto values = nonnegative_numbers(table, column);
         std::vector<double> cells;
         for (const auto& sampler : samplers) {
           const auto row = std::find(names.begin(), names.end(), sampler);
@@ -57,14 +58,16 @@ int main(int argc, char** argv) {
     };
     std::vector<long> categories;
     const auto iterations = [&](const std::string& path) {
-      const auto numbers = io::CsvTable::read(path).integers("iterations");
+      const auto table = io::CsvTable::read(path);
+      const auto numbers = positive_integers(table, "iterations");
+      require_once(table, numbers, "iterations", "each number of iterations once");
       categories.insert(categories.end(), numbers.begin(), numbers.end());
     };
     const auto add_counts = [&](const char* source, const std::string& path) {
       const auto table = io::CsvTable::read(path);
       const auto numbers = table.integers("iterations");
-      const auto first = table.numbers(samplers[0]);
-      const auto second = table.numbers(samplers[1]);
+      const auto first = nonnegative_numbers(table, samplers[0]);
+      const auto second = nonnegative_numbers(table, samplers[1]);
       for (const long category : categories) {
         const auto row = std::find(numbers.begin(), numbers.end(), category);
         const auto i = static_cast<std::size_t>(row - numbers.begin());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "inputs.hpp"
 
@@ -21,8 +22,15 @@ int main(int argc, char** argv) {
     const auto table = io::CsvTable::read(input);
     const auto samplers = table.text("sampler");
     const auto runs = table.integers("run");
-    const auto stages = table.integers("stage");
-    const auto betas = table.numbers("beta");
+    const auto stages = positive_integers(table, "stage");
+    const auto betas = checked(
+        table, "beta", table.numbers("beta"), [](double beta) { return beta >= 0.0 && beta <= 1.0; },
+        "a number from 0 to 1");
+    std::vector<std::tuple<std::string_view, long, long>> keys;
+    for (std::size_t row = 0; row < betas.size(); ++row) {
+      keys.emplace_back(samplers[row], runs[row], stages[row]);
+    }
+    require_once(table, keys, "stage", "each stage once a run");
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
       csv.emplace(program.output(), std::vector<std::string>{"sampler", "run", "stage", "beta"});

@@ -27,8 +27,8 @@ int main(int argc, char** argv) {
   program.add_input("--table4", table4, "Table 4 as printed");
 
   return program.run(argc, argv, [&] {
-    const auto studies = read_studies(replicated);
     const auto printed = read_printed_tables(table3, table4);
+    const auto studies = read_studies(replicated, printed);
     auto csv = open_csv(program.output(), {"sampler", "parameter", "area", "cumulative"});
     auto counts_csv =
         open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});

@@ -2,8 +2,8 @@
 //
 // Data: the runs that sampling_study writes.
 
-#include <algorithm>
 #include <map>
+#include <set>
 
 #include "inputs.hpp"
 
@@ -13,16 +13,21 @@ int main(int argc, char** argv) {
   Program program("table4_iteration_counts", "How many runs needed how many iterations (Table 4).");
   std::string input = "data/generated/sampling_study_runs.csv";
   program.add_output("CSV in the form of table4_iteration_counts.csv: iterations and one column a sampler");
-  program.add_input("--input", input, "Runs: CSV with columns sampler, iterations");
+  program.add_input("--input", input,
+                    "Runs: CSV with columns sampler, iterations; and run, each once a sampler");
 
   return program.run(argc, argv, [&] {
     const auto table = io::CsvTable::read(input);
     const auto samplers = table.text("sampler");
-    const auto iterations = table.integers("iterations");
+    const auto iterations = positive_integers(table, "iterations");
+    if (table.has("run")) {
+      require_runs_once(table);
+    }
     std::vector<std::string> names;
+    std::set<std::string_view> known;
     std::map<long, std::map<std::string, long>> counts;
     for (std::size_t row = 0; row < samplers.size(); ++row) {
-      if (std::find(names.begin(), names.end(), samplers[row]) == names.end()) {
+      if (known.insert(samplers[row]).second) {
         names.push_back(samplers[row]);
       }
       ++counts[iterations[row]][samplers[row]];

@@ -4,6 +4,7 @@
 //
 // Data: Tables 3 and 4 and the claims as printed; replicated_study.csv; the exact posterior for C1 and Table 1 for C7.
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "inputs.hpp"
@@ -118,13 +119,21 @@ int main(int argc, char** argv) {
     const auto ids = claim_table.text("id");
     const auto places = claim_table.text("place");
     const auto texts = claim_table.text("claim");
-    const auto studies = read_studies(replicated);
     const auto printed = read_printed_tables(table3, table4);
+    const auto studies = read_studies(replicated, printed);
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
+    require_once(claim_table, ids, "id", "each claim once");
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if (ids[i].size() != 2 || ids[i][0] != 'C' || ids[i][1] < '1' || ids[i][1] > '9') {
         claim_table.fail(i, "id", "one of C1 to C9");
+      }
+    }
+    for (char digit = '1'; digit <= '9'; ++digit) {
+      const std::string id = {'C', digit};
+      if (std::find(ids.begin(), ids.end(), id) == ids.end()) {
+        throw io::InputError(
+            fmt::format("{}: column 'id': no row '{}': expected one row for each of C1 to C9", claims, id));
       }
     }
     if (printed.counts.size() != 2 || printed.areas.size() != 4) {
@@ -141,11 +150,17 @@ int main(int argc, char** argv) {
 
     const std::string& first = printed.counts[0].sampler;
     const std::string& second = printed.counts[1].sampler;
-    const auto ratio = [&](std::size_t at) {
-      return std::stod(printed.areas[at + 1].printed) / std::stod(printed.areas[at].printed);
+    const auto area = [&](const std::string& sampler, std::size_t parameter) {
+      const auto found = std::find_if(printed.areas.begin(), printed.areas.end(), [&](const auto& a) {
+        return a.sampler == sampler && a.parameter == parameter;
+      });
+      return std::stod(found->printed);
+    };
+    const auto ratio = [&](std::size_t parameter) {
+      return area(second, parameter) / area(first, parameter);
     };
     const auto force = study::contrast_areas(studies, first, second, 0, ratio(0), run_options.seed);
-    const auto frequency = study::contrast_areas(studies, first, second, 1, ratio(2), run_options.seed);
+    const auto frequency = study::contrast_areas(studies, first, second, 1, ratio(1), run_options.seed);
     const auto iterations = study::contrast_iterations(
         studies, printed.counts[0].counts, printed.counts[1].counts, first, second, run_options.seed);
     const auto audit = study::audit(observations, stated, alternative_force_n, reading.physics);

@@ -2,7 +2,10 @@
 /// Tables that the experiments read: measurements, priors, samples of a study.
 #pragma once
 
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "command_line.hpp"
 #include "estimation/exact_posterior.hpp"
@@ -32,6 +35,48 @@ struct InputFiles {
 /// The same of data/examples/.
 [[nodiscard]] std::string example(const std::string& file);
 
+/// The values of a column, each of which the rule has to allow; `expected` completes the sentence "expected ...".
+/// \throws io::InputError naming file, line, column and value.
+template <class Value, class Rule>
+[[nodiscard]] std::vector<Value> checked(const io::CsvTable& table, std::string_view column,
+                                         std::vector<Value> values, Rule rule, std::string_view expected) {
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!rule(values[row])) {
+      table.fail(row, column, expected);
+    }
+  }
+  return values;
+}
+
+/// The numbers of a column, which have to be positive.
+/// \throws as checked.
+[[nodiscard]] std::vector<double> positive_numbers(const io::CsvTable& table, std::string_view column);
+
+/// The numbers of a column, of which none may be negative.
+/// \throws as checked.
+[[nodiscard]] std::vector<double> nonnegative_numbers(const io::CsvTable& table, std::string_view column);
+
+/// The integers of a column, from 1.
+/// \throws as checked.
+[[nodiscard]] std::vector<long> positive_integers(const io::CsvTable& table, std::string_view column);
+
+/// Refuses the first row whose key another row had before, by its cell of the column.
+/// \throws as checked.
+template <class Key>
+void require_once(const io::CsvTable& table, const std::vector<Key>& keys, std::string_view column,
+                  std::string_view expected) {
+  std::set<Key> seen;
+  for (std::size_t row = 0; row < keys.size(); ++row) {
+    if (!seen.insert(keys[row]).second) {
+      table.fail(row, column, expected);
+    }
+  }
+}
+
+/// Refuses a second row of a run; columns sampler and run.
+/// \throws as checked.
+void require_runs_once(const io::CsvTable& table);
+
 /// Measurements in the columns of table1_observations.csv: r_nominal, r_measured, driving_frequency_hz,
 /// phase_deg. \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
@@ -48,7 +93,8 @@ struct InputFiles {
 [[nodiscard]] estimation::ParameterBounds bounds_of(const tmcmc::BoxPrior& prior);
 
 /// The exact posterior under a prior that the inputs gave.
-/// \throws io::InputError if the prior holds no friction force with continuous motion.
+/// \throws io::InputError if the prior holds no friction force with continuous motion or a bound that a density cannot
+///         have, naming file, line, column and value of the prior; the file alone if it cannot be read again.
 [[nodiscard]] estimation::ExactPosterior exact_posterior_for(const InputFiles& inputs,
                                                              const friction::Likelihood& likelihood,
                                                              const tmcmc::BoxPrior& prior);
@@ -64,8 +110,10 @@ struct GroupedColumns {
 /// Reads samples of a study (any parameters), grouped by sampler and run.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] GroupedColumns read_samples(const std::string& path);
+/// The same of a table that was read.
+[[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table);
 
-/// Studies as replicated_study writes them.
+/// Studies as replicated_study writes them: each study once with each sampler.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] std::vector<study::StudySummary> read_studies(const std::string& path);
 
@@ -74,8 +122,14 @@ struct PrintedTables {
   std::vector<study::PrintedArea> areas;  ///< friction force and natural frequency of each sampler
   std::vector<study::PrintedCounts> counts;
 };
+/// Both tables have to name the same samplers.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] PrintedTables read_printed_tables(const std::string& table3, const std::string& table4);
+
+/// The same, with studies of every printed sampler.
+/// \throws io::InputError naming file, line, column and value.
+[[nodiscard]] std::vector<study::StudySummary> read_studies(const std::string& path,
+                                                            const PrintedTables& printed);
 
 /// The null distribution for the two printed samplers: both samplers' studies if they are equivalent. The bootstrap behind
 /// that has a fixed seed of its own.

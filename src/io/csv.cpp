@@ -180,7 +180,7 @@ void CsvTable::parse_header(std::size_t begin, std::size_t end, std::size_t line
       throw InputError(fmt::format("{}:{}: column {}: value '': expected a column name", printable_path(path_), line,
                                    names_.size() + 1));
     }
-    if (has(name)) {
+    if (!places_.emplace(name, names_.size()).second) {
       throw InputError(fmt::format("{}:{}: column {}: value '{}': expected each column name once",
                                    printable_path(path_), line, names_.size() + 1, printable(name)));
     }
@@ -256,12 +256,12 @@ void CsvTable::parse_line(std::size_t begin, std::size_t end, std::size_t line, 
 }
 
 bool CsvTable::has(std::string_view column) const noexcept {
-  return std::find(names_.begin(), names_.end(), column) != names_.end();
+  return places_.find(column) != places_.end();
 }
 
 std::size_t CsvTable::index(std::string_view column) const {
   require_columns({column});
-  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), column) - names_.begin());
+  return places_.find(column)->second;
 }
 
 void CsvTable::require_columns(std::initializer_list<std::string_view> columns) const {

@@ -3,7 +3,9 @@
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -84,6 +86,7 @@ class CsvTable {
   std::filesystem::path path_;
   std::string buffer_;
   std::vector<std::string> names_;
+  std::map<std::string, std::size_t, std::less<>> places_;  // of the names
   std::size_t header_line_ = 0;
   std::vector<Cell> cells_;  // row by row
   std::vector<std::size_t> lines_;

@@ -15,6 +15,8 @@ namespace {
 
 using friction::Parameter;
 
+constexpr std::uint32_t most_attempts = 1000000;
+
 void require(bool condition, const char* field, tmcmc::Index value, const char* expected) {
   if (!condition) {
     throw std::invalid_argument(std::string(field) + " = " + std::to_string(value) + ": expected " +
@@ -72,7 +74,7 @@ SimulatedPair simulate_pair(const friction::Observations& design, const friction
   constexpr std::uint32_t stream =
       2;  // of Purpose::data: 0 and 1 are those of synthetic observations and exact draws
   const friction::Likelihood model(design, physics);
-  for (std::uint32_t attempt = 0;; ++attempt) {
+  for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
     SimulatedPair pair{Eigen::VectorXd(friction::parameter_count), design};
     const auto words = [&](std::uint64_t row) {
       return tmcmc::random_words(
@@ -101,6 +103,11 @@ SimulatedPair simulate_pair(const friction::Observations& design, const friction
       return pair;
     }
   }
+  throw tmcmc::InfeasiblePriorError(
+      "none of " + std::to_string(most_attempts) +
+      " draws from the prior is feasible: expected friction forces up to " +
+      std::to_string(model.limit_friction_force_n()) +
+      " N, the limit of continuous motion, and noise that leaves the nominal ratios positive");
 }
 
 CalibrationResult calibrate(const friction::Observations& design, const Reading& reading,
@@ -108,6 +115,8 @@ CalibrationResult calibrate(const friction::Observations& design, const Reading&
                             const CalibrationOptions& options, const std::function<void()>& observer) {
   options.validate();
   arm.options.validate();
+  // A prior without feasible draws ends here, once, not in every replication.
+  static_cast<void>(simulate_pair(design, reading.physics, prior, options.seed, 0));
   const auto replications = static_cast<std::size_t>(options.replications);
   CalibrationResult result;
   result.ranks.assign(static_cast<std::size_t>(prior.dimension()), std::vector<tmcmc::Index>(replications));

@@ -39,11 +39,13 @@ struct SimulatedPair {
   friction::Observations observations;  ///< drawn from the model at these
 };
 /// Pair number `replication` of the seed.
+/// \throws tmcmc::InfeasiblePriorError if none of 1000000 draws is one to keep.
 [[nodiscard]] SimulatedPair simulate_pair(const friction::Observations& design,
                                           const friction::Physics& physics, const tmcmc::BoxPrior& prior,
                                           std::uint64_t seed, std::uint32_t replication);
 
 /// \param arm_index  of the random streams of the runs; the simulated pairs do not depend on it
+/// \throws std::invalid_argument for invalid options; as simulate_pair and tmcmc::run.
 [[nodiscard]] CalibrationResult calibrate(const friction::Observations& design, const Reading& reading,
                                           const tmcmc::BoxPrior& prior, const Arm& arm,
                                           std::uint32_t arm_index, const CalibrationOptions& options,

@@ -7,6 +7,12 @@
 
 namespace study {
 
+namespace {
+
+constexpr tmcmc::Index most_runs = 1000000;  // the null distributions draw them one by one
+
+}  // namespace
+
 StudySummary summarise(std::uint32_t study, const std::string& sampler, const std::vector<Run>& runs,
                        int threads) {
   StudySummary summary;
@@ -70,23 +76,26 @@ std::string format_iterations(const std::map<tmcmc::Index, tmcmc::Index>& counts
 std::map<tmcmc::Index, tmcmc::Index> parse_iterations(const std::string& text) {
   std::map<tmcmc::Index, tmcmc::Index> counts;
   const auto reject = [&]() -> std::invalid_argument {
-    return std::invalid_argument("iterations '" + text +
-                                 "': expected pairs such as 10:45, with blanks between");
+    return std::invalid_argument(
+        "iterations '" + text +
+        "': expected pairs such as 10:45, with blanks between: each number of iterations once, with 1 to "
+        "1000000 runs");
   };
   const char* at = text.data();
   const char* const end = at + text.size();
-  const auto number = [&](char after) {
+  const auto number = [&](char after, tmcmc::Index largest) {
     tmcmc::Index value = 0;
     const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || value < 0 || (next == end ? after == ':' : *next != after)) {
+    if (error != std::errc() || value < 1 || value > largest ||
+        (next == end ? after == ':' : *next != after)) {
       throw reject();
     }
     at = next == end ? end : next + 1;
     return value;
   };
   while (at != end) {
-    const tmcmc::Index iterations = number(':');
-    if (at == end || !counts.emplace(iterations, number(' ')).second) {
+    const tmcmc::Index iterations = number(':', std::numeric_limits<tmcmc::Index>::max());
+    if (at == end || !counts.emplace(iterations, number(' ', most_runs)).second) {
       throw reject();
     }
   }

@@ -249,6 +249,22 @@ TEST_CASE_METHOD(CsvFixture, "a long table of one column takes no quadratic time
   CHECK(elapsed.count() < 5.0);
 }
 
+TEST_CASE_METHOD(CsvFixture, "a table of many columns takes no quadratic time", "[io][csv]") {
+  constexpr std::size_t columns = 100000;
+  std::string line = "0";
+  for (std::size_t i = 1; i < columns; ++i) line.append(",").append(std::to_string(i));
+  const std::filesystem::path path = put(line + "\n" + line + "\n");
+  const auto start = std::chrono::steady_clock::now();
+  const CsvTable t = CsvTable::read(path);
+  bool right = t.column_names().size() == columns;
+  for (std::size_t i = 0; i < columns; i += 10) {
+    right = right && t.cell(0, std::to_string(i)) == std::to_string(i);
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  CHECK(right);
+  CHECK(elapsed.count() < 5.0);
+}
+
 TEST_CASE("numbers are written in the shortest form that reads back", "[io][csv]") {
   CHECK(io::format_number(0.1) == "0.1");
   CHECK(io::format_number(1.0) == "1");

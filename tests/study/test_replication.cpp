@@ -42,8 +42,10 @@ TEST_CASE("iteration counts as text", "[replication]") {
   const std::map<tmcmc::Index, tmcmc::Index> counts = {{9, 2}, {10, 45}, {11, 3}};
   CHECK(format_iterations(counts) == "9:2 10:45 11:3");
   CHECK(parse_iterations("9:2 10:45 11:3") == counts);
+  CHECK(parse_iterations("9:1000000").at(9) == 1000000);
   CHECK(parse_iterations("7:50") == std::map<tmcmc::Index, tmcmc::Index>{{7, 50}});
-  for (const char* bad : {"", "9", "9:", "9:2  10:1", "9:2,10:1", "9:2 9:3", "a:1", "9:-2", "9:2x"}) {
+  for (const char* bad : {"", "9", "9:", "9:2  10:1", "9:2,10:1", "9:2 9:3", "a:1", "9:-2", "9:2x", "0:1",
+                          "9:0", "9:1000001", "9:9000000000000000000"}) {
     CAPTURE(bad);
     CHECK_THROWS_WITH(parse_iterations(bad), Contains("10:45"));
   }
