@@ -82,7 +82,8 @@ mkdir exits
 with_little_memory() { (ulimit -v 4000000 && OMP_STACKSIZE=1G exec "$@"); }
 if with_little_memory "$bin/sampling_study" --version >/dev/null 2>&1; then
   with_little_memory "$bin/sampling_study" --runs 20 --samples 200 --threads 20 --quiet --output exits/out.csv >said.txt 2>&1
-  check "threads that cannot start: status 1: $(cat said.txt)" test $? = 1
+  status=$?
+  check "threads that cannot start: status 1: $(cat said.txt)" test $status = 1
   check "leave nothing" test -z "$(ls -A exits)"
 else
   echo 'skipped: threads that cannot start'
@@ -100,7 +101,7 @@ pause 500
 kill -KILL $pid
 wait $pid 2>/dev/null
 pause 500
-check "a killed scaling leaves no process" test -z "$(pgrep -g $pid)"
+check "a killed scaling leaves no process" test -z "$(ps -eo pgid=,stat= | awk -v g=$pid '$1 == g && $2 !~ /^Z/')"
 rm -f .scaling.csv.*.part
 
 # ---------------------------------------------------------------- signals, replicated studies
@@ -174,8 +175,8 @@ pipeline() {  # DIRECTORY: some of make's results, with the executables as they 
     $(executables | sed "s|^|-o $bin/|") $(for t in $tables; do echo "$work/$1/$t.csv"; done)
 }
 before=$(milliseconds)
-pipeline made >make.txt 2>&1
-check "make: $(tail -2 make.txt)" test $? = 0
+pipeline made >make.txt 2>&1; status=$?
+check "make: $(tail -2 make.txt)" test $status = 0
 make_time=$(($(milliseconds) - before))
 for signal in INT TERM KILL; do
   rm -rf again
@@ -187,8 +188,8 @@ for signal in INT TERM KILL; do
     [ ! -e "$file" ] || check "SIG$signal: $file is whole" cmp -s "$file" "made/${file#again/}"
   done
   [ $signal = KILL ] || check "SIG$signal, make: no temporary file" test -z "$(temporary_files again 2>/dev/null)"
-  pipeline again >make.txt 2>&1
-  check "SIG$signal, make again: $(tail -2 make.txt)" test $? = 0
+  pipeline again >make.txt 2>&1; status=$?
+  check "SIG$signal, make again: $(tail -2 make.txt)" test $status = 0
   for t in $tables; do
     check "SIG$signal, make again: $t" cmp -s "made/$t.csv" "again/$t.csv"
   done

@@ -115,6 +115,7 @@ check "goes on from Ctrl-C" cmp -s program.csv other.csv
 # directory is left.
 gone() { local tries=0; while pgrep -f "$1" >/dev/null && [ $tries -lt 100 ]; do sleep 0.02; tries=$((tries + 1)); done; ! pgrep -f "$1" >/dev/null; }
 find . -name '.*.part' -delete  # of the kills above
+rm -rf "${TMPDIR:?}"/*
 for signal in INT TERM HUP; do
   for threads in 1 2; do
     for whom in process group; do
@@ -152,7 +153,7 @@ check "a kill leaves the directory" test -d "$TMPDIR/$held"
 touch -d '2 minutes ago' "$TMPDIR/$held"
 $own --threads 1 --command data/examples/two_storey_frame.py --output after.csv
 check "which is removed afterwards" test "$(ls "$TMPDIR")" = log-likelihood-abcdeg
-rm -r "$TMPDIR/log-likelihood-abcdeg" out.csv.checkpoint
+rm -r "$TMPDIR/log-likelihood-abcdeg"
 
 # A grandchild that outlives the program and holds its standard error does not hold up the run.
 script "sleep 64 & exec \"$MODEL\" \"\$@\""
@@ -177,6 +178,7 @@ check "a link with a file: resumed" $own --threads 1 --command ./program.sh --ch
 check "a link with a file: the same bytes" cmp -s program.csv linked.csv
 check "the link stays" test -L dangling
 check "its file goes" test ! -e kept/nothing
+rm -rf "${TMPDIR:?}"/*
 if mknod null c 1 3 2>/dev/null && { : >null; } 2>/dev/null; then
   checkpoint_of null
   check "a device stays" test -c null
