@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 
 #include "archive/checkpoint.hpp"
 #include "external/program.hpp"
@@ -76,6 +78,14 @@ void report(const Program& program, const tmcmc::Result& result) {
   }
 }
 
+bool is_same_path(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto resolved = [](const std::filesystem::path& path) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  };
+  return resolved(a) == resolved(b);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -91,7 +101,7 @@ int main(int argc, char** argv) {
   program.add_file_output(
       "--checkpoint", checkpoint_path,
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
-      ".checkpoint, if that is a file");
+      ".checkpoint, if --output is a file");
   auto& app = program.app();
   program.add_input("--observations", observations_path, "CSV with columns mode (1 or 2), frequency_hz");
   program.add_input("--prior", prior_path, "CSV with columns parameter, lower, upper");
@@ -123,9 +133,17 @@ int main(int argc, char** argv) {
       columns.emplace_back("log_likelihood");
       return columns;
     }());
-    const bool is_file = !program.output().empty() && program.output() != "-";
-    const std::string checkpoint =
-        checkpoint_path.empty() && is_file ? program.output() + ".checkpoint" : checkpoint_path;
+    std::optional<io::OutputFile> netcdf_file;
+    if (!netcdf_path.empty()) {
+      netcdf_file.emplace(netcdf_path);
+    }
+    const std::string checkpoint = checkpoint_path.empty() && csv && !csv->in_place()
+                                       ? program.output() + ".checkpoint"
+                                       : checkpoint_path;
+    if (!checkpoint.empty() && netcdf_file && is_same_path(checkpoint, netcdf_path)) {
+      throw std::invalid_argument(fmt::format("--netcdf: {}: expected another file than the checkpoint",
+                                              io::printable_path(netcdf_path)));
+    }
 
     archive::RunDescription run{sampler_options(evaluations, run_options.study_options().threads),
                                 {.seed = run_options.seed},
@@ -138,13 +156,18 @@ int main(int argc, char** argv) {
         const Eigen::VectorXd point = result.final.points.row(i);
         csv->row(std::span<const double>(point.data(), names.size()), result.final.log_likelihood[i]);
       }
+    }
+    if (netcdf_file) {
+      netcdf::write_inference_data(*netcdf_file, inference_data(result, observations, run_options.seed));
+    }
+    if (csv) {
       csv->commit();
     }
-    if (!netcdf_path.empty()) {
-      netcdf::write_inference_data(netcdf_path, inference_data(result, observations, run_options.seed));
+    if (netcdf_file) {
+      netcdf_file->commit();
     }
     if (!checkpoint.empty()) {
-      std::filesystem::remove(checkpoint);
+      archive::remove_checkpoint(checkpoint);
     }
   });
 }

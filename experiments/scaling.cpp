@@ -3,6 +3,7 @@
 //
 // Data: synthetic, from Eqs. 22 and 23 with the stated parameters; prior of Table 2 (Lye and Marino, ESREL 2023).
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 
 #include "inputs.hpp"
 #include "option_checks.hpp"
@@ -85,8 +87,13 @@ Measurement measure(const Setting& setting) {
   if (pipe(channel) != 0) {
     throw std::runtime_error("scaling: no pipe to a process of its own");
   }
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) {
+      _exit(1);
+    }
     try {
       const Measurement m = work_on(setting);
       _exit(write(channel[1], &m, sizeof m) == static_cast<ssize_t>(sizeof m) ? 0 : 1);

@@ -15,19 +15,24 @@ tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikel
   if (checkpoint.empty()) {
     return tmcmc::run({log_likelihood, run.prior}, run.options, run.key);
   }
-  const auto say_that_it_is_kept = [&] {
-    io::set_interruption_note(
-        fmt::format("the stages so far are kept in {}, run the same command again to go on", checkpoint));
+  // A checkpoint that is a device keeps nothing.
+  const auto is_kept = [&] {
+    std::error_code error;
+    return std::filesystem::is_regular_file(checkpoint, error);
   };
-  if (std::filesystem::is_regular_file(checkpoint)) {
-    say_that_it_is_kept();
-  }
+  const auto say_what_is_kept = [&] {
+    if (is_kept()) {
+      io::set_interruption_note(
+          fmt::format("the stages so far are kept in {}, run the same command again to go on", checkpoint));
+    }
+  };
+  say_what_is_kept();
   double beta = -1.0;
   std::size_t stages = 0;
   try {
     return archive::run_with_checkpoint(checkpoint, run, log_likelihood,
                                         [&](const tmcmc::Progress& progress) {
-                                          say_that_it_is_kept();
+                                          say_what_is_kept();
                                           beta = progress.state.beta;
                                           stages = progress.stages.size();
                                         });
@@ -36,7 +41,7 @@ tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikel
   } catch (const io::OutputError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (beta < 0.0) {
+    if (beta < 0.0 || !is_kept()) {
       throw;
     }
     throw std::runtime_error(

@@ -196,6 +196,19 @@ std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path
   return progress;
 }
 
+void remove_checkpoint(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(path, error);
+  if (error || !std::filesystem::is_regular_file(file, error) || io::OutputFile(path).in_place()) {
+    return;
+  }
+  if (!std::filesystem::remove(file, error) && error) {
+    throw io::OutputError(
+        fmt::format("{}: cannot be removed: {}: expected a checkpoint in a writable directory",
+                    io::printable_path(path), error.message()));
+  }
+}
+
 tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                                   const tmcmc::LogLikelihood& log_likelihood,
                                   const tmcmc::Observer& observer) {

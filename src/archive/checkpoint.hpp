@@ -37,9 +37,14 @@ void write_checkpoint(const std::filesystem::path& path, const RunDescription& r
 [[nodiscard]] std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path,
                                                              const RunDescription& run);
 
+/// Removes a checkpoint whose results are in place. Only a file is removed, the one that a symbolic link points to; devices,
+/// pipes, descriptors such as /dev/stdout and the link itself stay, and nothing happens if there is no file.
+/// \throws io::OutputError if the file cannot be removed.
+void remove_checkpoint(const std::filesystem::path& path);
+
 /// A run that keeps its progress in a file: it goes on from there if the file exists, else it starts, and writes the file
 /// after the draws from the prior and after each stage. The file stays after the end, so that the next call returns the
-/// result without an evaluation: remove it when the result is in place.
+/// result without an evaluation: remove_checkpoint when the result is in place.
 /// \param observer  is called after the file was written
 /// \throws as tmcmc::run, read_checkpoint and write_checkpoint; a path that cannot be written is found out at the start.
 [[nodiscard]] tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDescription& run,

@@ -13,6 +13,8 @@
 #include <csignal>
 #include <system_error>
 
+#include "io/process_groups.hpp"
+
 namespace external {
 
 namespace {
@@ -21,7 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Only calls that are safe between fork and exec in a program with threads.
 [[noreturn]] void become(char* const* arguments, const char* directory, pid_t parent, int error_pipe) {
-  setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   sigset_t none;
   sigemptyset(&none);
@@ -71,7 +72,7 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(limited ? std::min(timeout_seconds, 1e9) : 0.0));
   const pid_t parent = getpid();
-  const pid_t child = fork();
+  const pid_t child = io::fork_group();
   if (child == 0) {
     become(pointers.data(), directory.c_str(), parent, error_pipe[1]);
   }
@@ -88,18 +89,12 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
   const int process = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
   if (process < 0) {
     const int error = errno;
-    kill(-child, SIGKILL);
-    waitpid(child, nullptr, 0);
+    io::end_group(child);
     throw std::system_error(error, std::generic_category(), "pidfd_open");
   }
   const bool ended = wait_until(process, limited, deadline);
   close(process);
-  kill(
-      -child,
-      SIGKILL);  // the rest of its group; the child itself is a zombie until waitpid, so the number is still its own
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = io::end_group(child);
   if (failed) {
     return {ChildEnd::Kind::not_started, start_error};
   }

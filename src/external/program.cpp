@@ -11,6 +11,7 @@
 
 #include "external/child.hpp"
 #include "io/csv.hpp"
+#include "io/scratch_directory.hpp"
 
 namespace external {
 
@@ -18,27 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A directory that is removed with all that is in it.
-class ScratchDirectory {
- public:
-  ScratchDirectory() : path_((fs::temp_directory_path() / "log-likelihood-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) {
-      throw ProgramError(
-          fmt::format("{}: {}: expected to make a directory for the points", path_, std::strerror(errno)));
-    }
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
+const std::string scratch_name = "log-likelihood";
+const std::string points_name = "points.csv";
+const std::string results_name = "log_likelihoods.csv";
 
 std::string end_of(const ChildEnd& end, double timeout_seconds) {
   switch (end.kind) {
@@ -83,6 +66,7 @@ Program::Program(ProgramOptions options) : options_(std::move(options)) {
                                            : "not a file"));
   }
   options_.program = fs::absolute(options_.program).string();
+  io::ScratchDirectory::remove_stale(scratch_name);
 }
 
 void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
@@ -109,9 +93,9 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   if (points.rows() == 0) {
     return;
   }
-  const ScratchDirectory scratch;
-  const std::string input = scratch.path() + "/points.csv";
-  const std::string output = scratch.path() + "/log_likelihoods.csv";
+  const io::ScratchDirectory scratch(scratch_name, {points_name, results_name});
+  const std::string input = scratch.path() + "/" + points_name;
+  const std::string output = scratch.path() + "/" + results_name;
   io::CsvWriter writer(input, options_.parameter_names);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Eigen::VectorXd row = points.row(i);
@@ -146,7 +130,7 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   } catch (const io::InputError& error) {
     std::string what = error.what();
     if (const auto at = what.find(output); at != std::string::npos) {
-      what.replace(at, output.size(), "log_likelihoods.csv");
+      what.replace(at, output.size(), results_name);
     }
     fail("wrote what cannot be read: " + what, 0, true);
   }

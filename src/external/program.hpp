@@ -5,7 +5,7 @@
 ///
 ///     PROGRAM points.csv log_likelihoods.csv
 ///
-/// without a shell, in a directory of its own that is removed afterwards; its standard output goes to standard error. It reads
+/// without a shell, in a directory of its own that is removed afterwards (io::ScratchDirectory); its standard output goes to standard error. It reads
 /// the first file, a header with the names of the parameters and a row a point, and writes the second, a column
 /// `log_likelihood` with a row a point in the same order: decimal numbers, or -inf where the model excludes the point.
 #pragma once
@@ -35,13 +35,14 @@ class ProgramError : public std::runtime_error {
 class Program {
  public:
   /// \throws std::invalid_argument for no parameter or a timeout that is negative or not finite; ProgramError if the program
-  ///         is not an executable file.
+  ///         is not an executable file. Removes what an earlier process that was killed left in the temporary directory.
   explicit Program(ProgramOptions options);
 
   /// \param points  n x d
   /// \param log_likelihood  n, overwritten; NaN and plus infinity are passed on
   /// \throws ProgramError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
-  ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is no number.
+  ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is no number;
+  ///         io::OutputError if the points cannot be written.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 

@@ -118,6 +118,9 @@ class CsvWriter {
   /// Puts the finished file in place, see OutputFile::commit.
   void commit() { file_.commit(); }
 
+  /// See OutputFile::in_place.
+  [[nodiscard]] bool in_place() const noexcept { return file_.in_place(); }
+
  private:
   void append(double value);
   template <std::integral Integer>

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 
 #include <boost/crc.hpp>
 #include <cerrno>
@@ -24,6 +25,13 @@ constexpr std::size_t checksum_size = 9;  // a tab and eight digits
                                 printable_path(path), std::generic_category().message(error)));
 }
 
+[[noreturn]] void fail_as_foreign(const std::filesystem::path& path) {
+  throw InputError(
+      fmt::format("{}:1: made with other inputs or options, or damaged: expected the same, or no journal "
+                  "(delete it to start again)",
+                  printable_path(path)));
+}
+
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& output, const std::string& key)
@@ -33,12 +41,18 @@ Journal::Journal(const std::filesystem::path& output, const std::string& key)
 }
 
 void Journal::open() {
-  file_.fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file_.fd < 0) {
+  file_.fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
+  struct stat status {};
+  if (file_.fd < 0 || ::fstat(file_.fd, &status) != 0) {
     fail(path_, errno);
   }
+  if (!S_ISREG(status.st_mode)) {
+    throw InputError(
+        fmt::format("{}: a pipe or a device: expected a journal, or no such file", printable_path(path_)));
+  }
   if (::flock(file_.fd, LOCK_EX | LOCK_NB) != 0) {
-    throw InputError(fmt::format("{}: in use by another process: expected to be alone", printable_path(path_)));
+    throw InputError(
+        fmt::format("{}: in use by another process: expected to be alone", printable_path(path_)));
   }
 }
 
@@ -54,11 +68,7 @@ void Journal::read_lines() {
     std::string row = text.substr(begin, size < checksum_size ? 0 : size - checksum_size);
     const bool intact = text.compare(begin, size + 1, line(row)) == 0;
     if (!has_key && (!intact || row != key_)) {
-      throw InputError(
-          fmt::format("{}:1: made with other inputs or options, or damaged: expected the same, or no journal "
-                      "(delete it to "
-                      "start again)",
-                      printable_path(path_)));
+      fail_as_foreign(path_);
     }
     if (!intact) {
       was_damaged_ = true;
@@ -69,6 +79,10 @@ void Journal::read_lines() {
     }
     has_key = true;
     begin = end + 1;
+  }
+  // A first line that was cut off is a run's own if it begins as this one's; after a power failure it may be zeros.
+  if (!has_key && !line(key_).starts_with(text) && text.find_first_not_of('\0') != std::string::npos) {
+    fail_as_foreign(path_);
   }
   cut_to(begin);
   if (!has_key) {

@@ -18,8 +18,8 @@ class Journal {
  public:
   /// Opens the journal or starts one. From the first row on that is cut off or damaged the rows are dropped.
   /// \param key  one line that names everything the rows depend on
-  /// \throws InputError if the journal there has another or a damaged key, or another process has it open; OutputError if
-  ///         it cannot be opened or written.
+  /// \throws InputError if the journal there has another or a damaged key (one that was cut off counts as none), is no regular
+  ///         file, or another process has it open; OutputError if it cannot be opened or written.
   Journal(const std::filesystem::path& output, const std::string& key);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;

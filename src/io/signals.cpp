@@ -8,9 +8,13 @@
 #include <array>
 #include <atomic>
 #include <climits>
+#include <cstdlib>
 #include <cstring>
 
+#include "io/ending.hpp"
 #include "io/partial_files.hpp"
+#include "io/process_groups.hpp"
+#include "io/scratch_directory.hpp"
 
 namespace io {
 namespace {
@@ -29,6 +33,7 @@ struct Line {
 
 std::array<Line, 2> lines;
 std::string start_of_line;
+std::atomic<pid_t> owner{0};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler needs lock-free atomics");
 
 void say_what_is_kept() {
@@ -40,9 +45,22 @@ void say_what_is_kept() {
   }
 }
 
-extern "C" void clean_up_and_die(int signal_number) {
+/// What a forked process has inherited is not its own.
+bool owns_the_files() {
+  return ::getpid() == owner;
+}
+
+extern "C" void clean_up() {
+  if (!owns_the_files()) return;
+  const bool settled = ending::begin();
+  process_groups::kill_all();
   partial_files::unlink_all();
-  if (signal_number != SIGPIPE) say_what_is_kept();
+  if (settled) ScratchDirectory::remove_all();
+}
+
+extern "C" void clean_up_and_die(int signal_number) {
+  clean_up();
+  if (owns_the_files() && signal_number != SIGPIPE) say_what_is_kept();
   // SA_RESETHAND has restored the default action; it is taken when this handler returns.
   ::raise(signal_number);
 }
@@ -53,6 +71,8 @@ void end_cleanly_on_signals(std::string_view program) {
   // The line of a progress bar is cleared first.
   start_of_line = fmt::format("{}{}: interrupted: ", ::isatty(STDERR_FILENO) != 0 ? "\r\x1B[K" : "", program);
   set_interruption_note("");
+  owner = ::getpid();
+  std::atexit(clean_up);
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGXFSZ}) {
     struct sigaction old {};
     if (::sigaction(signal_number, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;

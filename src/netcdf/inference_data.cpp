@@ -8,8 +8,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "io/files.hpp"
-
 namespace netcdf {
 
 namespace {
@@ -100,14 +98,13 @@ void fill(int file, const InferenceData& data) {
 
 }  // namespace
 
-void write_inference_data(const std::filesystem::path& path, const InferenceData& data) {
+void write_inference_data(io::OutputFile& output, const InferenceData& data) {
   if (data.samples.cols() != static_cast<Eigen::Index>(data.parameter_names.size()) ||
       data.samples.rows() == 0 || data.log_likelihood.size() != data.samples.rows()) {
     throw std::invalid_argument(
         "inference data: expected samples with a column for each parameter name and a log-likelihood "
         "for each row");
   }
-  io::OutputFile output(path);
   int file = 0;
   check(nc_create_mem("inference_data", NC_NETCDF4, 0, &file), "file in memory");
   try {
@@ -120,7 +117,6 @@ void write_inference_data(const std::filesystem::path& path, const InferenceData
   check(nc_close_memio(file, &memory), "end of the file");
   const std::unique_ptr<void, decltype(&std::free)> owner(memory.memory, &std::free);
   output.write({static_cast<const char*>(memory.memory), memory.size});
-  output.commit();
 }
 
 }  // namespace netcdf

@@ -14,10 +14,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "io/files.hpp"
 
 namespace netcdf {
 
@@ -35,8 +36,8 @@ struct InferenceData {
   std::vector<std::pair<std::string, std::string>> texts;  ///< attributes, such as inference_library
 };
 
-/// Writes the file; it appears complete or not at all (io::OutputFile).
+/// Writes the whole file into an output that the caller has opened, and commits.
 /// \throws io::OutputError; std::invalid_argument for lengths that do not agree or names that NetCDF refuses.
-void write_inference_data(const std::filesystem::path& path, const InferenceData& data);
+void write_inference_data(io::OutputFile& output, const InferenceData& data);
 
 }  // namespace netcdf

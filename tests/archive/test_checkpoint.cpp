@@ -1,6 +1,10 @@
 // A run that was killed after any stage and goes on from its file ends with the same bits; a file that is not its own, or
 // not whole, is refused.
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <boost/crc.hpp>
 #include <fstream>
 #include <functional>
@@ -147,6 +151,32 @@ TEST_CASE("a run that dies at any evaluation and is started again and again is t
                     whole.result);
     CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 1);
   }
+}
+
+TEST_CASE("only the file of a checkpoint is removed", "[archive]") {
+  namespace fs = std::filesystem;
+  const Written written;
+  const fs::path link = written.directory.path() / "link";
+  fs::create_symlink("run.checkpoint", link);
+  archive::remove_checkpoint(link);
+  CHECK(fs::is_symlink(link));
+  CHECK_FALSE(fs::exists(written.path));
+  archive::remove_checkpoint(link);  // now without its file
+  archive::remove_checkpoint(written.path);
+  CHECK(fs::is_symlink(link));
+
+  const fs::path pipe = written.directory.path() / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  archive::remove_checkpoint(pipe);
+  CHECK(fs::exists(pipe));
+  archive::remove_checkpoint(written.directory.path());
+  CHECK(fs::exists(written.directory.path()));
+
+  std::ofstream(written.path) << "what is printed";
+  const int descriptor = ::open(written.path.c_str(), O_RDONLY);
+  archive::remove_checkpoint("/dev/fd/" + std::to_string(descriptor));
+  ::close(descriptor);
+  CHECK(fs::exists(written.path));
 }
 
 TEST_CASE("numbers come back bit for bit, extreme ones too", "[archive]") {

@@ -75,6 +75,35 @@ check "rows were kept there" has_rows gone/out.csv.journal 3
 $study --output gone/out.csv
 check "what was kept there goes on" cmp -s whole.csv gone/out.csv
 
+# ---------------------------------------------------------------- a library that calls exit
+
+# No room for the stacks of the threads: libgomp says so and exits. Sanitizers do not start with so little memory.
+mkdir exits
+with_little_memory() { (ulimit -v 4000000 && OMP_STACKSIZE=1G exec "$@"); }
+if with_little_memory "$bin/sampling_study" --version >/dev/null 2>&1; then
+  with_little_memory "$bin/sampling_study" --runs 20 --samples 200 --threads 20 --quiet --output exits/out.csv >said.txt 2>&1
+  status=$?
+  check "threads that cannot start: status 1: $(cat said.txt)" test $status = 1
+  check "leave nothing" test -z "$(ls -A exits)"
+else
+  echo 'skipped: threads that cannot start'
+fi
+
+# ---------------------------------------------------------------- a process of its own
+
+start "$bin/scaling" --quiet --output scaling.csv
+pause 1500
+check "Ctrl-C ends scaling" stop INT
+check "by the signal" test $status = $((128 + $(number_of INT)))
+check "and says so once: $(cat said.txt)" test "$(rows_of said.txt)" = 1
+start "$bin/scaling" --quiet --output scaling.csv
+pause 500
+kill -KILL $pid
+wait $pid 2>/dev/null
+pause 500
+check "a killed scaling leaves no process" test -z "$(ps -eo pgid=,stat= | awk -v g=$pid '$1 == g && $2 !~ /^Z/')"
+rm -f .scaling.csv.*.part
+
 # ---------------------------------------------------------------- signals, replicated studies
 
 for signal in INT TERM KILL INT; do
@@ -128,6 +157,12 @@ cp journal out.csv.journal
 printf '~' | dd of=out.csv.journal bs=1 seek="$(somewhere 0 $((first_line - 1)))" conv=notrunc status=none
 expect_error 2 'out.csv.journal:1: made with other inputs or options, or damaged' $study --output out.csv
 rm -f out.csv.journal
+printf 'notes without an end of line' >out.csv.journal
+expect_error 2 'out.csv.journal:1: made with other inputs or options, or damaged' $study --output out.csv
+rm -f out.csv.journal
+mkfifo out.csv.journal
+expect_error 2 'out.csv.journal: a pipe or a device: expected a journal, or no such file' timeout 20 $study --output out.csv
+rm -f out.csv.journal
 
 # ---------------------------------------------------------------- signals, make
 
@@ -140,8 +175,8 @@ pipeline() {  # DIRECTORY: some of make's results, with the executables as they 
     $(executables | sed "s|^|-o $bin/|") $(for t in $tables; do echo "$work/$1/$t.csv"; done)
 }
 before=$(milliseconds)
-pipeline made >make.txt 2>&1
-check "make: $(tail -2 make.txt)" test $? = 0
+pipeline made >make.txt 2>&1; status=$?
+check "make: $(tail -2 make.txt)" test $status = 0
 make_time=$(($(milliseconds) - before))
 for signal in INT TERM KILL; do
   rm -rf again
@@ -153,8 +188,8 @@ for signal in INT TERM KILL; do
     [ ! -e "$file" ] || check "SIG$signal: $file is whole" cmp -s "$file" "made/${file#again/}"
   done
   [ $signal = KILL ] || check "SIG$signal, make: no temporary file" test -z "$(temporary_files again 2>/dev/null)"
-  pipeline again >make.txt 2>&1
-  check "SIG$signal, make again: $(tail -2 make.txt)" test $? = 0
+  pipeline again >make.txt 2>&1; status=$?
+  check "SIG$signal, make again: $(tail -2 make.txt)" test $status = 0
   for t in $tables; do
     check "SIG$signal, make again: $t" cmp -s "made/$t.csv" "again/$t.csv"
   done

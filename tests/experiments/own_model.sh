@@ -110,4 +110,104 @@ expect_error 2 'other: checkpoint was made with' $own --seed 2 --checkpoint othe
 touch "$MENDED"
 $own --threads 1 --command ./program.sh --checkpoint other --output other.csv
 check "goes on from Ctrl-C" cmp -s program.csv other.csv
+
+# Interrupted in its third call, alone or with its process group: all that the program has started ends with it, and no
+# directory is left.
+gone() { local tries=0; while pgrep -f "$1" >/dev/null && [ $tries -lt 100 ]; do sleep 0.02; tries=$((tries + 1)); done; ! pgrep -f "$1" >/dev/null; }
+find . -name '.*.part' -delete  # of the kills above
+rm -rf "${TMPDIR:?}"/*
+for signal in INT TERM HUP; do
+  for threads in 1 2; do
+    for whom in process group; do
+      rm -f started out.csv*
+      script 'sh -c "sleep 62; sleep 62" & echo x >>"$STARTED"; sleep 62'
+      STARTED=$work/started start $own --threads $threads --command ./program.sh --output out.csv
+      wait_for test -s started
+      sleep 0.1
+      if [ $whom = process ]; then kill -s $signal $pid; wait $pid; status=$?; else stop $signal; fi
+      check "SIG$signal to the $whom, $threads threads: ends by it" test $status = $((128 + $(kill -l $signal)))
+      check "SIG$signal to the $whom, $threads threads: one line: $(cat said.txt)" test "$(wc -l <said.txt)" = 1
+      check "SIG$signal to the $whom, $threads threads: nothing runs on" gone 'sleep 62'
+      check "SIG$signal to the $whom, $threads threads: no directory is left" test -z "$(ls "$TMPDIR")"
+      check "SIG$signal to the $whom, $threads threads: no temporary file" test -z "$(find . -name '.*.part')"
+    done
+  done
+done
+
+# What a kill leaves is removed at a later start, what another process holds is not.
+script 'echo x >>"$STARTED"; exec sleep 63'
+rm -f started
+STARTED=$work/started start $own --threads 1 --command ./program.sh --output out.csv
+wait_for test -s started
+held=$(ls "$TMPDIR")
+touch -d '2 minutes ago' "$TMPDIR/$held"
+mkdir "$TMPDIR/log-likelihood-abcdef" "$TMPDIR/log-likelihood-abcdeg"
+touch "$TMPDIR/log-likelihood-abcdef/output"
+touch -d '2 minutes ago' "$TMPDIR/log-likelihood-abcdef"
+killed_pid=$pid
+$own --threads 1 --command data/examples/two_storey_frame.py --output after.csv
+check "a stale directory is removed, one that is held or new is not" test "$(ls "$TMPDIR" | sort | tr '\n' ' ')" = "$(printf '%s\n' "$held" log-likelihood-abcdeg | sort | tr '\n' ' ')"
+pid=$killed_pid
+check "a kill ends it" stop KILL
+check "a kill leaves the directory" test -d "$TMPDIR/$held"
+touch -d '2 minutes ago' "$TMPDIR/$held"
+$own --threads 1 --command data/examples/two_storey_frame.py --output after.csv
+check "which is removed afterwards" test "$(ls "$TMPDIR")" = log-likelihood-abcdeg
+rm -r "$TMPDIR/log-likelihood-abcdeg"
+
+# A grandchild that outlives the program and holds its standard error does not hold up the run.
+script "sleep 64 & exec \"$MODEL\" \"\$@\""
+check "a grandchild holds up nothing" timeout 60 bash -c "$own --threads 1 --command ./program.sh --output held.csv 2>&1 | cat"
+check "and changes nothing" cmp -s program.csv held.csv
+check "and has ended" gone 'sleep 64'
+
+# Only a file is taken for a checkpoint. The device is a copy in this directory; none can be made without root, or without
+# permission to open it.
+mkdir kept
+is_busy() { [ -n "$(ls "$TMPDIR")" ]; }
+checkpoint_of() { $own --checkpoint "$1" --output linked.csv; check "--checkpoint $1: the same bytes" cmp -s whole.csv linked.csv; rm -f linked.csv; }
+ln -s kept/nothing dangling
+checkpoint_of dangling
+check "a dangling link stays" test -L dangling
+check "and has no file again" test ! -e kept/nothing
+start $own --threads 1 --command ./program.sh --checkpoint dangling --output linked.csv
+wait_for test -s kept/nothing
+check "the stages are in the link's file" stop KILL
+rm -f linked.csv
+check "a link with a file: resumed" $own --threads 1 --command ./program.sh --checkpoint dangling --output linked.csv
+check "a link with a file: the same bytes" cmp -s program.csv linked.csv
+check "the link stays" test -L dangling
+check "its file goes" test ! -e kept/nothing
+rm -rf "${TMPDIR:?}"/*
+if mknod null c 1 3 2>/dev/null && { : >null; } 2>/dev/null; then
+  checkpoint_of null
+  check "a device stays" test -c null
+  start $own --threads 1 --command ./program.sh --checkpoint null --output linked.csv
+  wait_for is_busy
+  check "a device keeps nothing" stop INT
+  check "and nothing else is said: $(cat said.txt)" grep -qx 'own_model: interrupted: no unfinished output is kept' said.txt
+  $own --output null
+  check "--output to a device has no checkpoint" test ! -e null.checkpoint
+  check "and the device stays" test -c null
+else echo 'skipped: a device, since none can be made here'; fi
+mkfifo fifo
+cat fifo >from_fifo.csv &
+$own --output fifo
+wait $!
+check "--output to a pipe" cmp -s whole.csv from_fifo.csv
+check "has no checkpoint" test ! -e fifo.checkpoint
+$own --output - >printed.csv
+check "--output -" cmp -s whole.csv printed.csv
+check "has no checkpoint either" test -z "$(find . -name '*.checkpoint')"
+
+# NetCDF: opened before the work, in place with the CSV file.
+export STARTED=$work/started
+rm -f started
+script 'echo x >>"$STARTED"; exit 9'
+expect_error 2 'missing/out.nc: cannot be opened for writing' $own --command ./program.sh --output new.csv --netcdf missing/out.nc
+check "no call before the outputs are open" test ! -e started
+for same in both.csv.checkpoint ./both.csv.checkpoint; do
+  expect_error 2 "--netcdf: $same: expected another file than the checkpoint" $own --output both.csv --netcdf $same
+done
+expect_error 2 '--netcdf: both.nc: expected another file than the checkpoint' $own --checkpoint "$work/both.nc" --netcdf both.nc
 finish

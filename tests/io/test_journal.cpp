@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -130,6 +132,30 @@ TEST_CASE_METHOD(JournalFixture, "a tail of zeros, as a power failure may leave 
   put(whole + std::string(5000, '\0'));
   CHECK(rows() == all_rows);
   CHECK(content(journal) == whole);
+}
+
+TEST_CASE_METHOD(JournalFixture, "a file that is no journal is not touched", "[io][journal]") {
+  const std::string whole = filled();
+  const std::string first_line = whole.substr(0, whole.find('\n'));
+  for (const std::string& foreign : {std::string("notes"), std::string("notes\n"),
+                                     first_line.substr(0, 5) + "x", std::string(10, '\0') + "x"}) {
+    CAPTURE(foreign);
+    put(foreign);
+    CHECK_THROWS_WITH(Journal(output, key), Contains("out.csv.journal:1: made with other inputs or options"));
+    CHECK(content(journal) == foreign);
+  }
+  put(std::string(4096, '\0'));  // a power failure
+  CHECK(rows().empty());
+  CHECK(content(journal) == first_line + "\n");
+}
+
+TEST_CASE_METHOD(JournalFixture, "a journal is a regular file", "[io][journal]") {
+  REQUIRE(::mkfifo(journal.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(Journal(output, key),
+                    Contains("out.csv.journal: a pipe or a device: expected a journal"));
+  fs::remove(journal);
+  fs::create_symlink("/dev/null", journal);
+  CHECK_THROWS_AS(Journal(output, key), io::InputError);
 }
 
 TEST_CASE_METHOD(JournalFixture, "a journal that cannot be written is reported", "[io][journal]") {

@@ -1,9 +1,11 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "io/files.hpp"
+#include "io/process_groups.hpp"
 #include "io/signals.hpp"
 #include "temporary_directory.hpp"
 
@@ -37,6 +40,25 @@ int status_of_child(const fs::path& standard_error, const std::function<void()>&
   int status = 0;
   REQUIRE(::waitpid(child, &status, 0) == child);
   return status;
+}
+
+/// Starts a group whose leader and its child hold the writing end of a pipe until they end.
+void start_group(int pipe_end) {
+  const pid_t leader = io::fork_group();
+  if (leader != 0) return;
+  static_cast<void>(::fork());
+  [[maybe_unused]] const ssize_t ignored = ::write(pipe_end, "x", 1);
+  for (;;) ::pause();
+}
+
+/// Whether all others that hold the other end of the pipe end within ten seconds.
+bool all_end(int pipe_end) {
+  char byte = 0;
+  pollfd waiting{pipe_end, POLLIN, 0};
+  while (::poll(&waiting, 1, 10000) > 0) {
+    if (::read(pipe_end, &byte, 1) <= 0) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -113,4 +135,88 @@ TEST_CASE("signals that were ignored stay ignored", "[io][signals]") {
   });
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 7);
+}
+
+TEST_CASE("signals and exit end the process groups too, grandchildren as well", "[io][signals]") {
+  const TemporaryDirectory directory;
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, 0}) {
+    int ends[2];
+    REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
+    const int status = status_of_child(directory.path() / "stderr", [&] {
+      ::close(ends[0]);
+      ::signal(signal_number, SIG_DFL);
+      io::end_cleanly_on_signals("program");
+      start_group(ends[1]);
+      start_group(ends[1]);
+      ::usleep(50000);
+      if (signal_number == 0) std::exit(3);
+      ::raise(signal_number);
+    });
+    ::close(ends[1]);
+    CAPTURE(signal_number, status);
+    CHECK((signal_number == 0 ? WIFEXITED(status) : WIFSIGNALED(status)));
+    CHECK(all_end(ends[0]));
+    ::close(ends[0]);
+  }
+}
+
+TEST_CASE("a group ends with its leader's status, and the next ones have room", "[io][signals]") {
+  for (int i = 0; i < 5000; ++i) {
+    const pid_t leader = io::fork_group();
+    if (leader == 0) ::_exit(3);
+    REQUIRE(leader > 0);
+    if (i > 0) {  // killed, unless it was faster
+      const int status = io::end_group(leader);
+      REQUIRE((WIFSIGNALED(status) || WEXITSTATUS(status) == 3));
+      continue;
+    }
+    siginfo_t info;
+    REQUIRE(::waitid(P_PID, static_cast<id_t>(leader), &info, WEXITED | WNOWAIT) == 0);
+    CHECK(WEXITSTATUS(io::end_group(leader)) == 3);
+  }
+}
+
+TEST_CASE("exit removes the temporary files and says nothing", "[io][signals]") {
+  const TemporaryDirectory directory;
+  const TemporaryDirectory other;
+  const fs::path said = other.path() / "stderr";
+  const int status = status_of_child(said, [&] {
+    io::end_cleanly_on_signals("program");
+    OutputFile file(directory.path() / "a");
+    file.write("x");
+    std::exit(3);
+  });
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 3);
+  CHECK(entries(directory.path()) == 0);
+  CHECK(content(said).empty());
+}
+
+TEST_CASE("a forked process says nothing and removes nothing of its parent's", "[io][signals]") {
+  const TemporaryDirectory directory;
+  const TemporaryDirectory other;
+  const fs::path said = other.path() / "stderr";
+  for (const int signal_number : {SIGINT, 0}) {
+    const int status = status_of_child(said, [&] {
+      ::signal(SIGINT, SIG_DFL);
+      io::end_cleanly_on_signals("program");
+      OutputFile file(directory.path() / "a");
+      const pid_t child = ::fork();
+      if (child == 0) {
+        if (signal_number == 0) std::exit(3);
+        ::raise(signal_number);
+        ::_exit(4);
+      }
+      int end = 0;
+      ::waitpid(child, &end, 0);
+      if (signal_number == 0 ? WEXITSTATUS(end) != 3 : !WIFSIGNALED(end)) ::_exit(1);
+      file.commit();
+      ::_exit(0);
+    });
+    CAPTURE(signal_number);
+    CHECK(status == 0);
+    CHECK(entries(directory.path()) == 1);
+    CHECK(content(said).empty());
+    fs::remove(directory.path() / "a");
+  }
 }
