@@ -52,7 +52,8 @@ netcdf::InferenceData inference_data(const tmcmc::Result& result, const FrameObs
   data.texts = {{"inference_library", "tmcmc_companion"},
                 {"inference_library_version", COMPANION_VERSION},
                 {"seed", std::to_string(seed)}};
-  data.numbers = {{"log_evidence", result.evidence.log_evidence},
+  data.numbers = {{"beta", result.final.beta},
+                  {"log_evidence", result.evidence.log_evidence},
                   {"log_evidence_standard_error", result.evidence.standard_error}};
   for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
     data.numbers.emplace_back("effective_sample_size_" + data.parameter_names[j],
@@ -76,14 +77,6 @@ void report(const Program& program, const tmcmc::Result& result) {
   for (const auto& warning : result.diagnostics.warnings) {
     program.report("warning: {}\n", warning.message);
   }
-}
-
-bool is_same_path(const std::filesystem::path& a, const std::filesystem::path& b) {
-  const auto resolved = [](const std::filesystem::path& path) {
-    std::error_code error;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
-  };
-  return resolved(a) == resolved(b);
 }
 
 }  // namespace
@@ -123,10 +116,10 @@ int main(int argc, char** argv) {
     std::string model = "shear_frame";
     if (!command.empty()) {
       log_likelihood = external::Program({command, names, timeout_seconds});
-      model = std::filesystem::absolute(command).string();
+      model = std::filesystem::canonical(command).string();
     }
-    for (const double frequency : observations.frequency_hz) {
-      model += " " + io::format_number(frequency);
+    for (std::size_t i = 0; i < observations.mode.size(); ++i) {
+      model += fmt::format(" {}:{}", observations.mode[i], io::format_number(observations.frequency_hz[i]));
     }
     auto csv = open_csv(program.output(), [&] {
       auto columns = names;
@@ -140,7 +133,7 @@ int main(int argc, char** argv) {
     const std::string checkpoint = checkpoint_path.empty() && csv && !csv->in_place()
                                        ? program.output() + ".checkpoint"
                                        : checkpoint_path;
-    if (!checkpoint.empty() && netcdf_file && is_same_path(checkpoint, netcdf_path)) {
+    if (!checkpoint.empty() && netcdf_file && io::is_same_output(checkpoint, netcdf_path)) {
       throw std::invalid_argument(fmt::format("--netcdf: {}: expected another file than the checkpoint",
                                               io::printable_path(netcdf_path)));
     }
@@ -160,12 +153,7 @@ int main(int argc, char** argv) {
     if (netcdf_file) {
       netcdf::write_inference_data(*netcdf_file, inference_data(result, observations, run_options.seed));
     }
-    if (csv) {
-      csv->commit();
-    }
-    if (netcdf_file) {
-      netcdf_file->commit();
-    }
+    io::commit_all(csv, netcdf_file);
     if (!checkpoint.empty()) {
       archive::remove_checkpoint(checkpoint);
     }

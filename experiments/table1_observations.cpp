@@ -87,10 +87,10 @@ int main(int argc, char** argv) {
   app.add_option("--natural-frequency", truth.natural_frequency_hz, "True natural frequency omega_n, Hz")
       ->transform(positive("--natural-frequency"));
   app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg")
-      ->transform(positive("--phase-noise"));
+      ->transform(non_negative("--phase-noise"));
   app.add_option("--frequency-ratio-noise", truth.frequency_ratio_noise,
                  "Standard deviation of the frequency ratio")
-      ->transform(positive("--frequency-ratio-noise"));
+      ->transform(non_negative("--frequency-ratio-noise"));
   app.add_option("--alternative", alternative, "Second friction force of the audit, N")
       ->transform(non_negative("--alternative"));
   run_options.add_seed_to(app);

@@ -27,7 +27,9 @@ using Clock = std::chrono::steady_clock;
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  if (getppid() == parent && chdir(directory) == 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0) {
+  // A process of the background that reads from the terminal would be stopped.
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (getppid() == parent && chdir(directory) == 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0) {
     execv(arguments[0], arguments);
   }
   const int error = errno;

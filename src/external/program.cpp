@@ -107,7 +107,7 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   if (const std::string what = end_of(end, options_.timeout_seconds); !what.empty()) {
     fail(what, 0, true);
   }
-  if (!fs::exists(output)) {
+  if (!fs::is_regular_file(output)) {
     fail("wrote no log-likelihoods", 0, true);
   }
   try {

@@ -71,8 +71,9 @@ void remove_if_stale(const fs::path& path) {
 
 ScratchDirectory::ScratchDirectory(const std::string& name, const std::vector<std::string>& files) {
   std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
+  fs::path parent = fs::temp_directory_path(error);
   if (error) fail(parent.empty() ? fs::path("TMPDIR") : parent, error.value());
+  parent = fs::absolute(parent);  // the program starts in another directory
   std::string path = (parent / fmt::format("{}-{}", name, random_part)).string();
   const ending::Registration registration;
   if (::mkdtemp(path.data()) == nullptr) fail(path, errno);

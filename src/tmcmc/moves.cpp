@@ -159,6 +159,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
   if (candidates == 0) {
     return counts;
   }
+  block.candidate_log_likelihood.head(candidates).setConstant(std::numeric_limits<double>::quiet_NaN());
   log_likelihood_(block.candidates.topRows(candidates), block.candidate_log_likelihood.head(candidates));
   counts.evaluations = candidates;
   require_valid(block.candidates.topRows(candidates), block.candidate_log_likelihood.head(candidates));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -126,7 +127,7 @@ Workspace::Workspace(const Problem& problem, const Options& options, const Strea
 State initial_state(const Problem& problem, const Options& options, const StreamKey& key) {
   State state;
   state.points = problem.prior.sample(options.samples, key, options.threads);
-  state.log_likelihood.resize(options.samples);
+  state.log_likelihood.setConstant(options.samples, std::numeric_limits<double>::quiet_NaN());
   for_each_block(options.samples, rows_per_call(options.samples, options.threads, options.batch_rows),
                  options.threads, [&](Index, Index begin, Index end) {
                    problem.log_likelihood(state.points.middleRows(begin, end - begin),

@@ -22,7 +22,7 @@ using Index = Eigen::Index;
 using Population = Eigen::MatrixXd;
 
 /// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point that the
-/// model excludes; NaN and plus infinity are errors. It has to give a row the same value whatever rows stand
+/// model excludes; NaN, plus infinity and values that are not written are errors. It has to give a row the same value whatever rows stand
 /// beside it, and with more than one thread it is called at the same time from each.
 using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                          Eigen::Ref<Eigen::VectorXd> log_likelihood)>;

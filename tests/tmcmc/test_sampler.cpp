@@ -305,6 +305,19 @@ TEST_CASE("a likelihood of NaN or plus infinity ends the run, naming the point",
   }
 }
 
+TEST_CASE("a row whose log-likelihood is not written ends the run", "[tmcmc][sampler]") {
+  const BoxPrior prior(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  int calls = 0;
+  const int complete = GENERATE(0, 1);  // calls that write every row: none, that of the prior draws
+  const Problem problem = {
+      [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
+        const auto written = calls++ < complete ? values.size() : values.size() - 1;
+        values.head(written) = -points.col(0).head(written);
+      },
+      prior};
+  CHECK_THROWS_WITH(tmcmc::run(problem, few_samples(), {}), Contains("nan at ("));
+}
+
 TEST_CASE("an exception of the likelihood reaches the caller, from any thread", "[tmcmc][sampler]") {
   std::atomic<int> calls{0};
   const Problem problem = {
