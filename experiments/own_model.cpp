@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
                                        ? program.output() + ".checkpoint"
                                        : checkpoint_path;
     if (!checkpoint.empty() && netcdf_file && io::is_same_output(checkpoint, netcdf_path)) {
-      throw std::invalid_argument(fmt::format("--netcdf: {}: expected another file than the checkpoint",
+      throw std::invalid_argument(fmt::format("--netcdf: value '{}': expected another file than the checkpoint",
                                               io::printable_path(netcdf_path)));
     }
 

@@ -42,7 +42,7 @@ void exchange(const ScratchDirectory* from, const ScratchDirectory* to) noexcept
   }
 }
 
-[[noreturn]] void fail(const fs::path& path, int error) {
+[[noreturn]] void fail_directory(const fs::path& path, int error) {
   throw OutputError(fmt::format("{}: cannot be made: {}: expected a directory for temporary files",
                                 printable_path(path), std::generic_category().message(error)));
 }
@@ -72,18 +72,18 @@ void remove_if_stale(const fs::path& path) {
 ScratchDirectory::ScratchDirectory(const std::string& name, const std::vector<std::string>& files) {
   std::error_code error;
   fs::path parent = fs::temp_directory_path(error);
-  if (error) fail(parent.empty() ? fs::path("TMPDIR") : parent, error.value());
+  if (error) fail_directory(parent.empty() ? fs::path("TMPDIR") : parent, error.value());
   parent = fs::absolute(parent);  // the program starts in another directory
   std::string path = (parent / fmt::format("{}-{}", name, random_part)).string();
   const ending::Registration registration;
-  if (::mkdtemp(path.data()) == nullptr) fail(path, errno);
+  if (::mkdtemp(path.data()) == nullptr) fail_directory(path, errno);
   for (const std::string& file : files) paths_.push_back(path + "/" + file);
   paths_.push_back(path);
   lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (lock_ < 0) {
     const int reason = errno;
     ::rmdir(path.c_str());
-    fail(path, reason);
+    fail_directory(path, reason);
   }
   // Where directories cannot be locked, remove_stale finds none that can.
   static_cast<void>(::flock(lock_, LOCK_EX | LOCK_NB));

@@ -207,7 +207,7 @@ script 'echo x >>"$STARTED"; exit 9'
 expect_error 2 'missing/out.nc: cannot be opened for writing' $own --command ./program.sh --output new.csv --netcdf missing/out.nc
 check "no call before the outputs are open" test ! -e started
 for same in both.csv.checkpoint ./both.csv.checkpoint; do
-  expect_error 2 "--netcdf: $same: expected another file than the checkpoint" $own --output both.csv --netcdf $same
+  expect_error 2 "--netcdf: value '$same': expected another file than the checkpoint" $own --output both.csv --netcdf $same
 done
-expect_error 2 '--netcdf: both.nc: expected another file than the checkpoint' $own --checkpoint "$work/both.nc" --netcdf both.nc
+expect_error 2 "--netcdf: value 'both.nc': expected another file than" $own --checkpoint "$work/both.nc" --netcdf both.nc
 finish
