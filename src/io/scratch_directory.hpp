@@ -18,6 +18,7 @@ class ScratchDirectory {
   ScratchDirectory(const ScratchDirectory&) = delete;
   ScratchDirectory& operator=(const ScratchDirectory&) = delete;
 
+  /// Of the directory, absolute.
   [[nodiscard]] const std::string& path() const { return paths_.back(); }
 
   /// Removes directories of this name that no process holds: those of this user that can be locked and that nothing was
