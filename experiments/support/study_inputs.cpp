@@ -1,0 +1,188 @@
+// What studies have written, and what was printed of them; measurements and priors are in inputs.cpp.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "inputs.hpp"
+
+namespace experiments {
+
+namespace {
+
+constexpr long largest_study = 4294967295;  // of the random streams, 2^32 - 1
+constexpr long most_printed_runs = 10000;   // each is drawn many times over
+
+/// \throws io::InputError unless every study has each sampler of the file once.
+void require_same_samplers(const io::CsvTable& table, const std::vector<long>& studies,
+                           const std::vector<std::string>& samplers) {
+  std::vector<std::pair<long, std::string_view>> pairs;
+  std::map<long, std::size_t> rows_of;
+  for (std::size_t row = 0; row < studies.size(); ++row) {
+    pairs.emplace_back(studies[row], samplers[row]);
+    ++rows_of[studies[row]];
+  }
+  require_once(table, pairs, "sampler", "each sampler once a study");
+  const std::set<std::string_view> names(samplers.begin(), samplers.end());
+  for (std::size_t row = 0; row < studies.size(); ++row) {
+    const std::size_t found = rows_of[studies[row]];
+    if (found != names.size()) {
+      table.fail(row, "study",
+                 fmt::format("a row of each sampler ({}), not {} of {}",
+                             io::printable(fmt::to_string(fmt::join(names, ", "))), found, names.size()));
+    }
+  }
+}
+
+}  // namespace
+
+GroupedColumns read_samples(const std::string& path) {
+  return read_samples(io::CsvTable::read(path));
+}
+
+GroupedColumns read_samples(const io::CsvTable& table) {
+  table.require_columns({"sampler", "run"});
+  const auto samplers = table.text("sampler");
+  const auto runs = table.integers("run");
+  GroupedColumns result;
+  std::map<std::string_view, std::size_t> sampler_index;
+  std::vector<std::map<long, std::size_t>> run_index;
+  std::vector<std::pair<std::size_t, std::size_t>> place;  // of each row: sampler, run
+  for (std::size_t row = 0; row < samplers.size(); ++row) {
+    const auto [found, is_new] = sampler_index.try_emplace(samplers[row], sampler_index.size());
+    if (is_new) {
+      result.samplers.push_back(samplers[row]);
+      run_index.emplace_back();
+    }
+    const std::size_t s = found->second;
+    const auto run = run_index[s].try_emplace(runs[row], run_index[s].size()).first->second;
+    place.emplace_back(s, run);
+  }
+  for (const auto& name : table.column_names()) {
+    if (name != "sampler" && name != "run") {
+      result.columns.push_back(name);
+    }
+  }
+  if (result.columns.empty()) {
+    throw io::InputError(table.path().string() +
+                         ": no column of samples: expected at least one besides sampler and run");
+  }
+  result.values.resize(result.samplers.size());
+  for (std::size_t s = 0; s < result.samplers.size(); ++s) {
+    result.values[s].assign(result.columns.size(), std::vector<std::vector<double>>(run_index[s].size()));
+  }
+  for (std::size_t c = 0; c < result.columns.size(); ++c) {
+    const auto numbers = table.numbers(result.columns[c]);
+    for (std::size_t row = 0; row < numbers.size(); ++row) {
+      result.values[place[row].first][c][place[row].second].push_back(numbers[row]);
+    }
+  }
+  return result;
+}
+
+std::vector<study::StudySummary> read_studies(const std::string& path) {
+  const auto table = io::CsvTable::read(path);
+  const auto numbers = checked(
+      table, "study", table.integers("study"), [](long n) { return n >= 0 && n <= largest_study; },
+      "a whole number from 0 to 2^32 - 1");
+  const auto samplers = table.text("sampler");
+  require_same_samplers(table, numbers, samplers);
+  const auto iterations = table.text("iterations");
+  const auto evidence_mean = table.numbers("log_evidence_mean");
+  const auto evidence_sd = nonnegative_numbers(table, "log_evidence_sd");
+  std::vector<study::StudySummary> studies(table.rows());
+  for (std::size_t row = 0; row < studies.size(); ++row) {
+    auto& s = studies[row];
+    s.study = static_cast<std::uint32_t>(numbers[row]);
+    s.sampler = samplers[row];
+    s.log_evidence_mean = evidence_mean[row];
+    s.log_evidence_sd = evidence_sd[row];
+    try {
+      s.iterations = study::parse_iterations(iterations[row]);
+    } catch (const std::invalid_argument& error) {
+      table.fail(row, "iterations", expectation(error.what()));
+    }
+  }
+  const auto any_numbers = [](const io::CsvTable& from, std::string_view column) {
+    return from.numbers(column);
+  };
+  const auto fill = [&](const std::string& prefix, std::vector<double> study::StudySummary::*member,
+                        auto read) {
+    for (const auto& name : parameter_columns) {
+      const auto values = read(table, prefix + name);
+      for (std::size_t row = 0; row < studies.size(); ++row) {
+        (studies[row].*member).push_back(values[row]);
+      }
+    }
+  };
+  fill("area_", &study::StudySummary::areas, positive_numbers);
+  fill("mean_", &study::StudySummary::means, any_numbers);
+  fill("standard_error_", &study::StudySummary::standard_errors, nonnegative_numbers);
+  fill("smallest_", &study::StudySummary::smallest, any_numbers);
+  fill("largest_", &study::StudySummary::largest, any_numbers);
+  return studies;
+}
+
+PrintedTables read_printed_tables(const std::string& table3, const std::string& table4) {
+  PrintedTables printed;
+  const auto areas = io::CsvTable::read(table3);
+  const auto samplers = areas.text("sampler");
+  require_once(areas, samplers, "sampler", "each sampler once");
+  for (const std::size_t parameter :
+       {std::size_t{friction::friction_force}, std::size_t{friction::natural_frequency}}) {
+    const auto& column = parameter_columns[parameter];
+    static_cast<void>(positive_numbers(areas, column));
+    for (std::size_t row = 0; row < samplers.size(); ++row) {
+      printed.areas.push_back({samplers[row], parameter, std::string(areas.cell(row, column))});
+    }
+  }
+  const auto counts = io::CsvTable::read(table4);
+  const auto iterations = positive_integers(counts, "iterations");
+  require_once(counts, iterations, "iterations", "each number of iterations once");
+  for (std::size_t row = 0; row < samplers.size(); ++row) {
+    if (samplers[row] == "iterations" || !counts.has(samplers[row])) {
+      areas.fail(row, "sampler", fmt::format("the name of a column of {}", table4));
+    }
+  }
+  for (const auto& sampler : counts.column_names()) {
+    if (sampler == "iterations") {
+      continue;
+    }
+    if (std::find(samplers.begin(), samplers.end(), sampler) == samplers.end()) {
+      throw io::InputError(
+          fmt::format("{}: column 'sampler': no row '{}': expected one for each sampler of {}", table3,
+                      io::printable(sampler), table4));
+    }
+    const auto runs = checked(
+        counts, sampler, counts.integers(sampler), [](long n) { return n >= 0 && n <= most_printed_runs; },
+        "a number of runs from 0 to 10000");
+    study::PrintedCounts column{sampler, {}};
+    for (std::size_t row = 0; row < runs.size(); ++row) {
+      column.counts[iterations[row]] = runs[row];
+    }
+    printed.counts.push_back(column);
+  }
+  return printed;
+}
+
+std::vector<study::StudySummary> read_studies(const std::string& path, const PrintedTables& printed) {
+  auto studies = read_studies(path);
+  for (const auto& column : printed.counts) {
+    if (std::none_of(studies.begin(), studies.end(),
+                     [&](const auto& s) { return s.sampler == column.sampler; })) {
+      throw io::InputError(fmt::format(
+          "{}: column 'sampler': no row '{}': expected studies of each sampler of the printed tables", path,
+          io::printable(column.sampler)));
+    }
+  }
+  return studies;
+}
+
+study::Null null_of(const std::vector<study::StudySummary>& studies, const PrintedTables& printed) {
+  if (printed.counts.size() != 2) {
+    throw io::InputError(fmt::format(
+        "Table 4 as printed: {} columns of counts: expected those of two samplers", printed.counts.size()));
+  }
+  return study::null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
+}
+
+}  // namespace experiments
