@@ -45,7 +45,7 @@ help:
 # ---------------------------------------------------------------- packages
 
 PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
-  catch2 libbenchmark-dev libnetcdf-dev netcdf-bin python3-minimal gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
+  catch2 libbenchmark-dev libnetcdf-dev netcdf-bin python3-minimal procps gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
   texlive-latex-recommended texlive-fonts-recommended
 
 doc-deps: PACKAGES := doxygen

@@ -46,8 +46,8 @@ int main(int argc, char** argv) {
   run_options.runs = 20;
   std::string only;
   program.add_output("CSV with one row a problem: errors of the log-evidence, distances, masses of modes");
-  program.app().add_option("--problem", only, "Only the problem of this name, for example 'banana'");
-  run_options.add_to(program.app());
+  program.add_text("--problem", only, "TEXT", "Only the problem of this name, for example 'banana'");
+  run_options.add_to(program);
 
   return program.run(argc, argv, [&] {
     auto csv = open_csv(program.output(),

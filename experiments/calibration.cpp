@@ -11,7 +11,6 @@
 #include <boost/math/distributions/binomial.hpp>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "study/verdict.hpp"
 
 using namespace experiments;
@@ -33,17 +32,16 @@ int main(int argc, char** argv) {
   std::string ranks_output;
   program.add_output("CSV with one row a sampler and parameter: chi^2 of the ranks, p-values, coverage");
   program.add_file_output("--ranks-output", ranks_output, "CSV of the rank histograms with their 99 % bands");
-  auto& app = program.app();
-  app.add_option("--runs", options.replications, "Simulated data sets")->transform(count("--runs"));
-  app.add_option("--draws", options.draws, "Posterior draws that the truth is ranked among")
-      ->transform(count("--draws", 1, 1000000));
-  app.add_option("--bins", options.bins, "Bins of the rank histograms; a divisor of draws + 1")
-      ->transform(count("--bins", 2, 1000000));
-  run_options.add_seed_to(app);
-  run_options.add_threads_to(app);
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  program.add_number("--runs", options.replications, count(), "Simulated data sets");
+  program.add_number("--draws", options.draws, count(1, 1000000),
+                     "Posterior draws that the truth is ranked among");
+  program.add_number("--bins", options.bins, count(2, 1000000),
+                     "Bins of the rank histograms; a divisor of draws + 1");
+  run_options.add_seed_to(program);
+  run_options.add_threads_to(program);
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();

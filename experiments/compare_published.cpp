@@ -133,15 +133,14 @@ int main(int argc, char** argv) {
       "CSV: table, row, column, printed, ours, difference, low, high, p_holm, p_error, verdict");
   std::string markdown_output;
   program.add_file_output("--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
-  auto& app = program.app();
-  app.add_option("--published", printed_directory, "Directory of the tables as printed")->type_name("DIR");
+  program.add_text("--published", printed_directory, "DIR", "Directory of the tables as printed");
   program.add_input("--table1", table1, "Generated observations");
   program.add_input("--table3", table3, "Our p-box areas");
   program.add_input("--table4", table4, "Our iteration counts");
   program.add_input("--replicated", replicated,
                     "Studies of replicated_study; without them no intervals and verdicts");
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  inputs.add_prior_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto printed = [&](const std::string& file) {

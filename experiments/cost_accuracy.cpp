@@ -9,7 +9,6 @@
 #include <algorithm>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "study/accuracy.hpp"
 #include "study/verdict.hpp"
 
@@ -54,14 +53,13 @@ int main(int argc, char** argv) {
   std::string only;
   program.add_output(
       "CSV with one row a setting: evaluations, p-box areas, errors of means and log-evidence");
-  auto& app = program.app();
-  app.add_option("--studies", studies, "K, studies of R runs a setting; areas are given over these")
-      ->transform(count("--studies", 1, 1000000));
-  app.add_option("--family", only, "Only settings of this family, for example 'recommended'");
-  run_options.add_to(app, 2);
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  program.add_number("--studies", studies, count(1, 1000000),
+                     "K, studies of R runs a setting; areas are given over these");
+  program.add_text("--family", only, "TEXT", "Only settings of this family, for example 'recommended'");
+  run_options.add_to(program, 2);
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();

@@ -31,11 +31,11 @@ int main(int argc, char** argv) {
   RunOptions run_options;
   run_options.runs = 10;
   program.add_output("CSV with one row a stage of each run of TMCMC, and TMCMC-II beside it");
-  inputs.add_observations_to(program.app());
-  inputs.add_prior_to(program.app());
-  run_options.add_to(program.app());
-  sampler.add_to(program.app());
-  physics.add_to(program.app());
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  run_options.add_to(program);
+  sampler.add_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     study::Reading reading = physics.reading();

@@ -19,11 +19,11 @@ int main(int argc, char** argv) {
   sampler.max_stages = 200;
   sampler.minimum_step = 0.0;  // a step of 0 is what is to be shown
   program.add_output("CSV: target_fraction, stages, beta, smallest_step, stop");
-  inputs.add_observations_to(program.app());
-  inputs.add_prior_to(program.app());
-  run_options.add_seed_to(program.app());
-  sampler.add_to(program.app());
-  physics.add_to(program.app());
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  run_options.add_seed_to(program);
+  sampler.add_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     study::Reading reading = physics.reading();

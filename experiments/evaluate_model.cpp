@@ -72,15 +72,10 @@ int main(int argc, char** argv) {
   InputFiles inputs;
   PhysicsOptions physics;
   std::string points;
-  program.set_default_output("-");
-  program.add_input("--points", points, "Points: CSV")->required();
-  program.app()
-      .add_option("--output", "CSV: the points with the results added")
-      ->type_name("FILE")
-      ->each([&](const std::string& path) { program.set_default_output(path); })
-      ->default_str("-");
-  inputs.add_observations_to(program.app());
-  physics.add_to(program.app());
+  program.add_required_input("--points", points, "Points: CSV");
+  program.add_output("CSV: the points with the results added", "-");
+  inputs.add_observations_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();

@@ -9,7 +9,6 @@
 
 #include "estimation/laplace.hpp"
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "portable_math/elementary.hpp"
 
 using namespace experiments;
@@ -177,18 +176,17 @@ int main(int argc, char** argv) {
                           "CSV: what each sampler is off (needs --runs-input)");
   program.add_file_output("--histogram-output", histogram_output,
                           "CSV: pooled samples of each sampler (needs --samples-input)");
-  auto& app = program.app();
   program.add_input("--runs-input", runs_input,
                     "Runs of a study: what sampling_study writes to --runs-output");
   program.add_input("--samples-input", samples_input,
                     "Samples of a study: what sampling_study writes to --output");
-  app.add_option("--exceedance", threshold, "Friction force whose probability to be exceeded is wanted, N")
-      ->transform(non_negative("--exceedance"));
-  app.add_option("--points", points, "Grid points of each marginal")->transform(count("--points", 2, 1000000));
-  app.add_option("--bins", bins, "Bins of each histogram")->transform(count("--bins", 1, 1000000));
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  program.add_number("--exceedance", threshold, non_negative(),
+                     "Friction force whose probability to be exceeded is wanted, N");
+  program.add_number("--points", points, count(2, 1000000), "Grid points of each marginal");
+  program.add_number("--bins", bins, count(1, 1000000), "Bins of each histogram");
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     if (!samplers_output.empty() && runs_input.empty()) {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 
 using namespace experiments;
 
@@ -19,12 +18,11 @@ int main(int argc, char** argv) {
   long points = 1951;
   program.add_output(
       "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio");
-  auto& app = program.app();
-  app.add_option("--friction-force", friction_force, "F_mu, N")->transform(non_negative("--friction-force"));
-  app.add_option("--from", lowest, "Smallest frequency ratio")->transform(positive("--from"));
-  app.add_option("--to", highest, "Largest frequency ratio")->transform(positive("--to"));
-  app.add_option("--points", points, "Points of the curves")->transform(count("--points", 2, 1000000));
-  physics.add_to(app);
+  program.add_number("--friction-force", friction_force, non_negative(), "F_mu, N");
+  program.add_number("--from", lowest, positive(), "Smallest frequency ratio");
+  program.add_number("--to", highest, positive(), "Largest frequency ratio");
+  program.add_number("--points", points, count(2, 1000000), "Points of the curves");
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     if (!(lowest < highest)) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "pbox/pbox.hpp"
 
 using namespace experiments;
@@ -17,9 +16,8 @@ int main(int argc, char** argv) {
   long points = 401;
   program.add_output("CSV: sampler, parameter, x, lower, upper");
   program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
-  program.app()
-      .add_option("--points", points, "Grid points between the smallest and the largest sample")
-      ->transform(count("--points", 2, 1000000));
+  program.add_number("--points", points, count(2, 1000000),
+                     "Grid points between the smallest and the largest sample");
 
   return program.run(argc, argv, [&] {
     const auto samples = read_samples(input);

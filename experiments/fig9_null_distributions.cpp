@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   program.add_input("--replicated", replicated, "Studies written by replicated_study");
   program.add_input("--table3", table3, "Table 3 as printed");
   program.add_input("--table4", table4, "Table 4 as printed");
+  TableOptions table_options;
+  table_options.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto printed = read_printed_tables(table3, table4);
@@ -33,8 +35,8 @@ int main(int argc, char** argv) {
     auto counts_csv =
         open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});
     auto printed_csv = open_csv(printed_output, {"sampler", "parameter", "printed", "low", "high", "p"});
-    const auto verdicts =
-        study::judge_tables(studies, printed.areas, printed.counts, null_of(studies, printed));
+    const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts,
+                                              null_of(studies, printed), table_options.draws);
     for (const auto& v : verdicts.areas) {
       const auto& parameter = parameter_columns[v.parameter];
       program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",

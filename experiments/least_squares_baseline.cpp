@@ -8,7 +8,6 @@
 
 #include "estimation/least_squares.hpp"
 #include "inputs.hpp"
-#include "option_checks.hpp"
 
 using namespace experiments;
 
@@ -37,14 +36,12 @@ int main(int argc, char** argv) {
   program.add_output("CSV: one row a parameter with estimate, standard errors, chi^2 and how the fit went");
   program.add_file_output("--residuals-output", residuals_output,
                           "CSV of the residuals, one row an observation");
-  auto& app = program.app();
-  inputs.add_observations_to(app);
-  app.add_option("--phase-noise", options.phase_noise_deg, "sigma of the phase angle, deg")
-      ->transform(positive("--phase-noise"));
-  app.add_option("--frequency-ratio-noise", options.frequency_ratio_noise, "sigma of the frequency ratio")
-      ->transform(positive("--frequency-ratio-noise"));
-  app.add_option("--starts", options.starts, "Starting points")->transform(count("--starts", 1, 1000));
-  physics.add_to(app);
+  inputs.add_observations_to(program);
+  program.add_number("--phase-noise", options.phase_noise_deg, positive(), "sigma of the phase angle, deg");
+  program.add_number("--frequency-ratio-noise", options.frequency_ratio_noise, positive(),
+                     "sigma of the frequency ratio");
+  program.add_number("--starts", options.starts, count(1, 1000), "Starting points");
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();

@@ -13,7 +13,6 @@
 
 #include "friction/time_integration.hpp"
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "portable_math/elementary.hpp"
 
 using namespace experiments;
@@ -243,15 +242,12 @@ int main(int argc, char** argv) {
                           "CSV: errors of the published discretisation over the frequency ratio");
   program.add_file_output("--posterior-output", posterior_output,
                           "CSV: posterior with stick-slip excluded and computed");
-  auto& app = program.app();
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_driving_force_to(app);
-  app.add_option("--friction-force", friction_force, "Friction force of the errors, N")
-      ->transform(non_negative("--friction-force"));
-  app.add_option("--points", points, "Force ratios from 0 to 1")->transform(count("--points", 2, 100000));
-  app.add_option("--error-points", error_points, "Frequency ratios of the errors")
-      ->transform(count("--error-points", 2, 1000000));
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  physics.add_driving_force_to(program);
+  program.add_number("--friction-force", friction_force, non_negative(), "Friction force of the errors, N");
+  program.add_number("--points", points, count(2, 100000), "Force ratios from 0 to 1");
+  program.add_number("--error-points", error_points, count(2, 1000000), "Frequency ratios of the errors");
 
   return program.run(argc, argv, [&] {
     const double driving_force = physics.driving_force_n;

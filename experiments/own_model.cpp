@@ -14,7 +14,6 @@
 #include "inputs.hpp"
 #include "kept_run.hpp"
 #include "netcdf/inference_data.hpp"
-#include "option_checks.hpp"
 #include "shear_frame.hpp"
 
 using namespace experiments;
@@ -95,19 +94,16 @@ int main(int argc, char** argv) {
       "--checkpoint", checkpoint_path,
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
       ".checkpoint, if --output is a file");
-  auto& app = program.app();
   program.add_input("--observations", observations_path, "CSV with columns mode (1 or 2), frequency_hz");
   program.add_input("--prior", prior_path, "CSV with columns parameter, lower, upper");
-  app.add_option("--evaluations", evaluations, "Budget of log-likelihoods")
-      ->transform(count("--evaluations", 2600));
-  app.add_option("--command", command,
-                 "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv")
-      ->type_name("PROGRAM");
-  app.add_option("--timeout", timeout_seconds, "Most seconds of one call of the program; 0: no limit")
-      ->transform(number(
-          "--timeout", [](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"));
-  run_options.add_seed_to(app);
-  run_options.add_threads_to(app);
+  program.add_number("--evaluations", evaluations, count(2600), "Budget of log-likelihoods");
+  program.add_text("--command", command, "PROGRAM",
+                   "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv");
+  program.add_number("--timeout", timeout_seconds,
+                     number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"),
+                     "Most seconds of one call of the program; 0: no limit");
+  run_options.add_seed_to(program);
+  run_options.add_threads_to(program);
 
   return program.run(argc, argv, [&] {
     const auto& names = FrameLikelihood::parameter_names();
@@ -134,8 +130,9 @@ int main(int argc, char** argv) {
                                        ? program.output() + ".checkpoint"
                                        : checkpoint_path;
     if (!checkpoint.empty() && netcdf_file && io::is_same_output(checkpoint, netcdf_path)) {
-      throw std::invalid_argument(fmt::format("--netcdf: value '{}': expected another file than the checkpoint",
-                                              io::printable_path(netcdf_path)));
+      throw std::invalid_argument(
+          fmt::format("--netcdf: value '{}': expected another file than the checkpoint",
+                      io::printable_path(netcdf_path)));
     }
 
     archive::RunDescription run{sampler_options(evaluations, run_options.study_options().threads),

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "pbox/pbox.hpp"
 #include "study/verdict.hpp"
 #include "tmcmc/parallel.hpp"
@@ -74,14 +73,13 @@ int main(int argc, char** argv) {
   program.add_file_output(
       "--summary-output", summary_output,
       "CSV of the areas' quantiles over the studies: probability and one column a parameter");
-  auto& app = program.app();
-  app.add_option("--samples", samples, "N, draws a run")->transform(count("--samples", 2));
-  app.add_option("--studies", studies, "K, studies")->transform(count("--studies"));
-  app.add_option("--points", points, "Grid points of each p-box")->transform(count("--points", 2, 1000000));
-  run_options.add_to(app);
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  program.add_number("--samples", samples, count(2), "N, draws a run");
+  program.add_number("--studies", studies, count(), "K, studies");
+  program.add_number("--points", points, count(2, 1000000), "Grid points of each p-box");
+  run_options.add_to(program);
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();

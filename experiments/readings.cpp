@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "study/synthetic.hpp"
 
 using namespace experiments;
@@ -105,16 +104,20 @@ int main(int argc, char** argv) {
   Program program("readings", "Effect of each reading of the paper on every printed number.");
   InputFiles inputs;
   RunOptions run_options;
+  TableOptions table_options;
+  table_options.draws = {.tables = 20000, .resamples = 2};  // the standard error is not reported
+  std::string only;
   long studies = 40;
   long samples = 1000;
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");
   program.add_output("CSV with one row a reading and sampler");
-  auto& app = program.app();
-  inputs.add_observations_to(app);
-  run_options.add_to(app);
-  app.add_option("--studies", studies, "Replicated studies a reading")->transform(count("--studies", 3, 1000000));
-  app.add_option("--samples", samples, "N, samples a run")->transform(count("--samples", 2));
+  inputs.add_observations_to(program);
+  run_options.add_to(program);
+  program.add_number("--studies", studies, count(3, 1000000), "Replicated studies a reading");
+  program.add_number("--samples", samples, count(2), "N, samples a run");
+  table_options.add_to(program);
+  program.add_text("--only", only, "TEXT", "Only the reading of this name, for example 'as_worded'");
   program.add_input("--table3", table3, "Table 3 as printed");
   program.add_input("--table4", table4, "Table 4 as printed");
 
@@ -122,8 +125,13 @@ int main(int argc, char** argv) {
     const auto observations = read_observations(inputs.observations);
     const auto printed = read_printed_tables(table3, table4);
     auto options = run_options.study_options();
-    const auto list = variants(samples);
-    const study::TableDraws tables{.tables = 20000, .resamples = 2};  // the standard error is not reported
+    auto list = variants(samples);
+    if (!only.empty()) {
+      std::erase_if(list, [&](const Variant& v) { return v.name != only; });
+    }
+    if (list.empty()) {
+      throw std::invalid_argument(fmt::format("--only: value '{}': expected the name of a reading", only));
+    }
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
       csv.emplace(
@@ -157,7 +165,8 @@ int main(int argc, char** argv) {
           exact_posterior_for(inputs, friction::Likelihood(observations, variant.reading.physics), prior);
       // Under each reading both samplers are one algorithm (N_eff of 500 or 500.25): the studies of both are one null.
       const auto null = study::Null::all_studies;
-      const auto verdicts = study::judge_tables(summaries, printed.areas, printed.counts, null, tables);
+      const auto verdicts =
+          study::judge_tables(summaries, printed.areas, printed.counts, null, table_options.draws);
       const double log_likelihood =
           study::log_likelihood_of_tables(summaries, printed.areas, printed.counts, null);
       for (std::size_t a = 0; a < arms.size(); ++a) {

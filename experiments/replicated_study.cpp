@@ -5,10 +5,13 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 
+#include <algorithm>
+#include <boost/algorithm/string/split.hpp>
+#include <cmath>
+
 #include "archive/settings.hpp"
 #include "distributed/farm.hpp"
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "io/journal.hpp"
 #include "io/signals.hpp"
 #include "study/replication.hpp"
@@ -62,12 +65,18 @@ std::string key(const study::Reading& reading, const std::vector<study::Arm>& ar
   return text;
 }
 
+std::vector<std::string> parts(const std::string& text, char separator) {
+  std::vector<std::string> result;
+  boost::split(result, text, [separator](char c) { return c == separator; });
+  return result;
+}
+
 void report_column(const Program& program, const std::vector<std::string>& rows, std::size_t column,
                    const std::string& name, const std::vector<study::Arm>& arms) {
   for (const auto& arm : arms) {
     std::vector<double> values;
     for (const auto& text : rows) {
-      const auto cells = CLI::detail::split(text, ',');
+      const auto cells = parts(text, ',');
       if (cells[1] == arm.name) {
         values.push_back(std::stod(cells[column]));
       }
@@ -99,16 +108,14 @@ int main(int argc, char** argv) {
   long first_study = 0;
   program.add_output(
       "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");
-  auto& app = program.app();
-  app.add_option("--studies", studies, "Number of studies, of both samplers each")
-      ->transform(count("--studies", 1, 100000000));
-  app.add_option("--first-study", first_study, "Number of the first study, for sharing the work")
-      ->transform(count("--first-study", 0));
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  run_options.add_to(app);
-  sampler.add_to(app);
-  physics.add_to(app);
+  program.add_number("--studies", studies, count(1, 100000000), "Number of studies, of both samplers each");
+  program.add_number("--first-study", first_study, count(0),
+                     "Number of the first study, for sharing the work");
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  run_options.add_to(program);
+  sampler.add_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     study::Reading reading = physics.reading();
@@ -164,7 +171,7 @@ int main(int argc, char** argv) {
             return next < studies ? std::optional(std::to_string(first_study + next++)) : std::nullopt;
           },
           [&](const std::string& rows_of_study) {
-            const auto added = CLI::detail::split(rows_of_study, '\n');
+            const auto added = parts(rows_of_study, '\n');
             if (journal) {
               journal->append(added);
             }

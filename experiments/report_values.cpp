@@ -14,12 +14,11 @@ int main(int argc, char** argv) {
   std::string values = "paper/values.csv", tables = "paper/tables.csv";
   std::string generated = "data/generated", printed = "data/published", paper = "paper";
   program.add_output("TeX: \\reportvalue{KEY}{VALUE} and \\reporttable{KEY}{ROWS}");
-  auto& app = program.app();
   program.add_input("--values", values, "List of values: key, file, where, column, statistic, format");
   program.add_input("--tables", tables, "List of tables: key, file, where, columns");
-  app.add_option("--generated", generated, "Directory of the files generated/...")->type_name("DIR");
-  app.add_option("--published", printed, "Directory of the files published/...")->type_name("DIR");
-  app.add_option("--paper", paper, "Directory of the files paper/...")->type_name("DIR");
+  program.add_text("--generated", generated, "DIR", "Directory of the files generated/...");
+  program.add_text("--published", printed, "DIR", "Directory of the files published/...");
+  program.add_text("--paper", paper, "DIR", "Directory of the files paper/...");
 
   return program.run(argc, argv, [&] {
     const report::Roots roots = {{"generated", generated}, {"published", printed}, {"paper", paper}};

@@ -96,11 +96,11 @@ int main(int argc, char** argv) {
   program.add_file_output("--runs-output", runs_output,
                           "CSV with one row a run: iterations, log-evidence, moments");
   program.add_file_output("--stages-output", stages_output, "CSV with one row a stage of each run");
-  inputs.add_observations_to(program.app());
-  inputs.add_prior_to(program.app());
-  run_options.add_to(program.app());
-  sampler.add_to(program.app());
-  physics.add_to(program.app());
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  run_options.add_to(program);
+  sampler.add_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     study::Reading reading = physics.reading();

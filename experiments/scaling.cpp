@@ -14,7 +14,6 @@
 #include <csignal>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "study/synthetic.hpp"
 
 using namespace experiments;
@@ -145,12 +144,11 @@ int main(int argc, char** argv) {
   int most_threads = 0;
   program.add_output(
       "CSV, one row a setting: stages and evaluations, best time, peak memory beyond that of 64 samples");
-  auto& app = program.app();
-  app.add_option("--most-samples", most_samples, "Settings with more samples are left out")
-      ->transform(count("--most-samples", 1000, 1000000));
-  app.add_option("--most-threads", most_threads, "Most threads; 0: as many as the machine has")
-      ->transform(count("--most-threads", 0, 4096));
-  app.add_option("--repetitions", repetitions, "Rounds over all settings")->transform(count("--repetitions", 1, 1000000));
+  program.add_number("--most-samples", most_samples, count(100, 1000000),
+                     "Settings with more samples are left out");
+  program.add_number("--most-threads", most_threads, count(0, 4096),
+                     "Most threads; 0: as many as the machine has");
+  program.add_number("--repetitions", repetitions, count(1, 1000000), "Rounds over all settings");
 
   return program.run(argc, argv, [&] {
     const RunOptions machine{.threads = most_threads};

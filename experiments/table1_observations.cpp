@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "option_checks.hpp"
 #include "study/audit.hpp"
 
 using namespace experiments;
@@ -81,21 +80,18 @@ int main(int argc, char** argv) {
   program.add_file_output("--audit-output", audit_output, "CSV of the audit, one row an observation");
   program.add_file_output("--audit-summary-output", summary_output,
                           "CSV of the audit's statistics: estimates, tests, 95 % intervals");
-  auto& app = program.app();
-  app.add_option("--friction-force", truth.friction_force_n, "True friction force F_mu, N")
-      ->transform(non_negative("--friction-force"));
-  app.add_option("--natural-frequency", truth.natural_frequency_hz, "True natural frequency omega_n, Hz")
-      ->transform(positive("--natural-frequency"));
-  app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg")
-      ->transform(non_negative("--phase-noise"));
-  app.add_option("--frequency-ratio-noise", truth.frequency_ratio_noise,
-                 "Standard deviation of the frequency ratio")
-      ->transform(non_negative("--frequency-ratio-noise"));
-  app.add_option("--alternative", alternative, "Second friction force of the audit, N")
-      ->transform(non_negative("--alternative"));
-  run_options.add_seed_to(app);
-  inputs.add_observations_to(app);
-  physics.add_to(app);
+  program.add_number("--friction-force", truth.friction_force_n, non_negative(),
+                     "True friction force F_mu, N");
+  program.add_number("--natural-frequency", truth.natural_frequency_hz, positive(),
+                     "True natural frequency omega_n, Hz");
+  program.add_number("--phase-noise", truth.phase_noise_deg, non_negative(),
+                     "Standard deviation of the phase angle, deg");
+  program.add_number("--frequency-ratio-noise", truth.frequency_ratio_noise, non_negative(),
+                     "Standard deviation of the frequency ratio");
+  program.add_number("--alternative", alternative, non_negative(), "Second friction force of the audit, N");
+  run_options.add_seed_to(program);
+  inputs.add_observations_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();

@@ -91,6 +91,7 @@ int main(int argc, char** argv) {
   Program program("verdicts", "A verdict on every printed number and claim, with its evidence.");
   InputFiles inputs;
   PhysicsOptions physics;
+  TableOptions table_options;
   RunOptions run_options;
   std::string replicated = "data/generated/replicated_study.csv";
   std::string table3 = published("table3_pbox_area.csv");
@@ -103,15 +104,15 @@ int main(int argc, char** argv) {
       "--contrasts-output", contrasts_output,
       "CSV of the comparisons of the samplers behind C2 to C5: quantity, statistic, printed, null_low, "
       "null_high, p, ratio, ratio_low, ratio_high, margin");
-  auto& app = program.app();
   program.add_input("--replicated", replicated, "Studies written by replicated_study");
   program.add_input("--table3", table3, "Table 3 as printed");
   program.add_input("--table4", table4, "Table 4 as printed");
   program.add_input("--claims", claims, "Claims: CSV with columns id, place, claim");
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  run_options.add_seed_to(app);
-  physics.add_to(app);
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  table_options.add_to(program);
+  run_options.add_seed_to(program);
+  physics.add_to(program);
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();
@@ -161,8 +162,9 @@ int main(int argc, char** argv) {
     };
     const auto force = study::contrast_areas(studies, first, second, 0, ratio(0), run_options.seed);
     const auto frequency = study::contrast_areas(studies, first, second, 1, ratio(1), run_options.seed);
-    const auto iterations = study::contrast_iterations(
-        studies, printed.counts[0].counts, printed.counts[1].counts, first, second, run_options.seed);
+    const auto iterations =
+        study::contrast_iterations(studies, printed.counts[0].counts, printed.counts[1].counts, first, second,
+                                   run_options.seed, table_options.draws);
     const auto audit = study::audit(observations, stated, alternative_force_n, reading.physics);
 
     const friction::Likelihood likelihood(observations, reading.physics);

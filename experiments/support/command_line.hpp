@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,12 +16,20 @@
 #include "distributed/ranks.hpp"
 #include "io/csv.hpp"
 #include "io/progress.hpp"
+#include "option_checks.hpp"
+#include "study/deviance_test.hpp"
 #include "study/reading.hpp"
 #include "study/study.hpp"
 
+namespace CLI {
+class
+    App;  // CLI11 is included by one source, which spares the experiments to compile most of it once more each
+}
+
 namespace experiments {
 
-/// What every experiment has: --help, --version, --show-options, --quiet, --output.
+/// What every experiment has: --help, --version, --show-options, --quiet, --output; and the options of its own that are added,
+/// as --name. An option without a value of its own keeps the value that the variable has when it is added.
 class Program {
  public:
   Program(const std::string& name, const std::string& purpose);
@@ -29,22 +37,44 @@ class Program {
   /// For a program that mpirun may start as several ranks, which share out its work: one of them speaks.
   Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks);
 
-  ~Program();  // out of line, as add_input: else each experiment compiles most of CLI11 once more
+  ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  CLI::App& app() { return app_; }
+  /// Adds an option for a double, long, int or std::uint64_t, or an optional one of the first two; --help lists it in the group.
+  template <class Number>
+  void add_number(const std::string& option, Number& value, const Check& check,
+                  const std::string& description, const std::string& group = "Options");
+
+  /// Adds an option for a word; --help calls its values `type`.
+  void add_text(const std::string& option, std::string& value, const std::string& type,
+                const std::string& description);
+
+  /// Adds an option for one of the names.
+  void add_choice(const std::string& option, std::string& value, const std::vector<std::string>& names,
+                  const std::string& description, const std::string& group = "Options");
+  /// The same of one that may be left out.
+  void add_choice(const std::string& option, std::optional<std::string>& value,
+                  const std::vector<std::string>& names, const std::string& description,
+                  const std::string& group = "Reading, option by option");
+
+  /// Adds an option without a value.
+  void add_flag(const std::string& option, bool& value, const std::string& description,
+                const std::string& group);
 
   /// Adds an option for a CSV file that is read.
-  CLI::Option* add_input(const std::string& option, std::string& path, const std::string& description);
+  void add_input(const std::string& option, std::string& path, const std::string& description);
+  /// The same of one that has to be given.
+  void add_required_input(const std::string& option, std::string& path, const std::string& description);
 
   /// Adds --output, a CSV file ("-": standard output). Without it no file is written.
   void add_output(const std::string& description);
+  /// The same with a default.
+  void add_output(const std::string& description, const std::string& path);
   /// Adds a further output file.
   void add_file_output(const std::string& option, std::string& path, const std::string& description);
 
   [[nodiscard]] const std::string& output() const { return output_; }
-  void set_default_output(const std::string& path) { output_ = path; }
   [[nodiscard]] bool quiet() const { return quiet_; }
 
   /// Parses, calls body, and turns errors into one line on stderr and an exit status.
@@ -64,7 +94,7 @@ class Program {
   void check_paths() const;
   [[nodiscard]] bool leads() const { return ranks_ == nullptr || ranks_->rank() == 0; }
 
-  CLI::App app_;
+  std::unique_ptr<CLI::App> app_;
   std::string output_;
   bool quiet_ = false;
   bool show_options_ = false;
@@ -88,9 +118,9 @@ struct PhysicsOptions {
   std::optional<double> infeasible_log_likelihood;
   double driving_force_n = 2.5;
 
-  void add_to(CLI::App& app);
+  void add_to(Program& program);
   /// --driving-force alone.
-  void add_driving_force_to(CLI::App& app);
+  void add_driving_force_to(Program& program);
   /// The reading with the options applied.
   [[nodiscard]] study::Reading reading() const;
 };
@@ -106,11 +136,18 @@ struct SamplerOptions {
   double ess_fraction = 0.5;
   bool diagnose = false;
 
-  void add_to(CLI::App& app);
+  void add_to(Program& program);
   /// Replaces the sampler of the reading as the options say. Kind and target of the criterion, which belong to the two
   /// samplers that are compared, are not touched (study::paper_arms).
   /// \throws std::invalid_argument naming the option, for values that do not go together.
   void apply(study::Reading& reading) const;
+};
+
+/// --tables.
+struct TableOptions {
+  study::TableDraws draws;
+
+  void add_to(Program& program);
 };
 
 /// --runs, --seed, --threads.
@@ -119,9 +156,9 @@ struct RunOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
 
-  void add_to(CLI::App& app, long least_runs = 1);
-  void add_seed_to(CLI::App& app);
-  void add_threads_to(CLI::App& app);
+  void add_to(Program& program, long least_runs = 1);
+  void add_seed_to(Program& program);
+  void add_threads_to(Program& program);
   [[nodiscard]] study::StudyOptions study_options() const;
 };
 

@@ -23,8 +23,8 @@ std::string in_directory(const char* directory, const std::string& file) {
              : (std::filesystem::path(COMPANION_SOURCE_DIR) / here).string();
 }
 
-constexpr double smallest_bound = 1e-100;   // of the upper ones: the squares of noise levels are doubles
-constexpr double largest_bound = 1e100;     // likewise
+constexpr double smallest_bound = 1e-100;  // of the upper ones: the squares of noise levels are doubles
+constexpr double largest_bound = 1e100;    // likewise
 
 std::vector<double> ratios(const io::CsvTable& table, const char* column) {
   return checked(
@@ -84,19 +84,17 @@ std::string expectation(const std::string& complaint) {
   return found == std::string::npos ? "" : complaint.substr(found + before.size());
 }
 
-void InputFiles::add_observations_to(CLI::App& app) {
+void InputFiles::add_observations_to(Program& program) {
   observations = published("table1_observations.csv");
-  app.add_option("--observations", observations,
-                 "Measurements: CSV with columns r_nominal, r_measured, driving_frequency_hz, phase_deg")
-      ->type_name("CSV");
+  program.add_input("--observations", observations,
+                    "Measurements: CSV with columns r_nominal, r_measured, driving_frequency_hz, phase_deg");
 }
 
-void InputFiles::add_prior_to(CLI::App& app) {
-  app.add_option(
-         "--prior", prior,
-         "Bounds of the uniform prior: CSV with columns parameter, lower, upper; without it Table 2 as the "
-         "reading has it")
-      ->type_name("CSV");
+void InputFiles::add_prior_to(Program& program) {
+  program.add_input(
+      "--prior", prior,
+      "Bounds of the uniform prior: CSV with columns parameter, lower, upper; without it Table 2 as the "
+      "reading has it");
 }
 
 std::string published(const std::string& file) {

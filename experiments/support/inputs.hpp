@@ -25,8 +25,8 @@ struct InputFiles {
   std::string observations;
   std::string prior;  ///< empty: Table 2, with the reading's bound of the natural frequency
 
-  void add_observations_to(CLI::App& app);
-  void add_prior_to(CLI::App& app);
+  void add_observations_to(Program& program);
+  void add_prior_to(Program& program);
 };
 
 /// What stands behind the last "expected" of a complaint such as "friction_force.lower = 3: expected less than 2 N".

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "io/csv.hpp"
 
@@ -14,68 +16,61 @@ namespace {
 constexpr double least_positive = 1e-100;
 constexpr double most_positive = 1e100;
 
+template <class Number>
+std::optional<Number> parsed(const std::string& word) {
+  Number value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
-void add_choice(CLI::App& app, const std::string& option, std::optional<std::string>& value,
-                const std::vector<std::string>& names, const std::string& description,
-                const std::string& group) {
-  app.add_option(option, value, description)
-      ->group(group)
-      ->type_name(CLI::detail::join(names, "|"))
-      ->check([names, option](const std::string& text) {
-        for (const auto& name : names) {
-          if (text == name) {
-            return std::string();
-          }
-        }
-        return fmt::format("{}: value '{}': expected {}", option, io::printable(text),
-                           CLI::detail::join(names, " or "));
-      });
+Check number(const std::function<bool(double)>& accept, const std::string& expected) {
+  return {[accept](std::string& word) {
+            const auto value = parsed<double>(word);
+            const bool accepted = value && accept(*value);
+            word = accepted ? io::format_number(*value) : word;
+            return accepted;
+          },
+          expected};
 }
 
-CLI::Validator number(const std::string& option, const std::function<bool(double)>& accept,
-                      const std::string& expected) {
-  return CLI::Validator(
-      [option, accept, expected](std::string& text) {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || !accept(value)) {
-          return fmt::format("{}: value '{}': expected {}", option, io::printable(text), expected);
-        }
-        text = io::format_number(value);
-        return std::string();
-      },
-      "", option);
+Check positive() {
+  return number([](double x) { return x >= least_positive && x <= most_positive; },
+                "a positive number from 1e-100 to 1e100");
 }
 
-CLI::Validator positive(const std::string& option) {
-  return number(
-      option, [](double x) { return x >= least_positive && x <= most_positive; },
-      "a positive number from 1e-100 to 1e100");
+Check non_negative() {
+  return number([](double x) { return x == 0.0 || (x >= least_positive && x <= most_positive); },
+                "0 or a positive number from 1e-100 to 1e100");
 }
 
-CLI::Validator non_negative(const std::string& option) {
-  return number(
-      option, [](double x) { return x == 0.0 || (x >= least_positive && x <= most_positive); },
-      "0 or a positive number from 1e-100 to 1e100");
+Check count(long least, long most) {
+  return {[least, most](std::string& word) {
+            const auto value = parsed<double>(word);
+            const bool accepted = value && *value >= static_cast<double>(least) &&
+                                  *value <= static_cast<double>(most) && *value == std::floor(*value);
+            word = accepted ? fmt::format("{:.0f}", *value) : word;
+            return accepted;
+          },
+          fmt::format("a whole number from {} to {}", least, most)};
 }
 
-CLI::Validator count(const std::string& option, long least, long most) {
-  CLI::Validator whole = number(
-      option,
-      [least, most](double x) {
-        return x >= static_cast<double>(least) && x <= static_cast<double>(most) && x == std::floor(x);
-      },
-      fmt::format("a whole number from {} to {}", least, most));
-  return CLI::Validator(
-      [whole](std::string& text) {
-        const std::string complaint = whole(text);
-        if (complaint.empty()) {  // 1e+06 is no integer to CLI11
-          text = fmt::format("{:.0f}", std::stod(text));
-        }
-        return complaint;
-      },
-      "", option);
+Check seed() {
+  return {[](std::string& word) {
+            const auto value = parsed<std::uint64_t>(word);
+            word = value ? fmt::format("{}", *value) : word;
+            return value.has_value();
+          },
+          "a whole number from 0 to 2^64 - 1"};
+}
+
+Check one_of(const std::vector<std::string>& words) {
+  return {
+      [words](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); },
+      words.size() < 2
+          ? fmt::format("{}", fmt::join(words, ""))
+          : fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back())};
 }
 
 }  // namespace experiments

@@ -1,8 +1,7 @@
 /// \file
-/// Checks of option values, with messages of the one form that all errors have: option, value, what was expected.
+/// Checks of option values. What they refuse is said in the one form that all errors have: option, value, what was expected.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,12 +9,28 @@
 
 namespace experiments {
 
-/// A choice among names that stand in the order of an enum; the value is checked when it is parsed.
-void add_choice(CLI::App& app, const std::string& option, std::optional<std::string>& value,
-                const std::vector<std::string>& names, const std::string& description,
-                const std::string& group = "Reading, option by option");
+/// What the value of an option has to be.
+struct Check {
+  /// Whether the word is accepted; it is then replaced by one that the options' parser reads as meant: that would take a
+  /// leading 0 for octal, and does not know 1e+06 for an integer.
+  std::function<bool(std::string& word)> accept;
+  std::string expected;  ///< completes "expected ..."
+};
 
-/// Sets the target to the choice, if one was made.
+/// Numbers that `accept` takes.
+[[nodiscard]] Check number(const std::function<bool(double)>& accept, const std::string& expected);
+/// From 1e-100 to 1e100: squares and ratios neither vanish nor overflow.
+[[nodiscard]] Check positive();
+/// 0, or as positive.
+[[nodiscard]] Check non_negative();
+/// Whole numbers from `least` to `most`.
+[[nodiscard]] Check count(long least = 1, long most = 1000000000);
+/// Whole numbers of 64 bits.
+[[nodiscard]] Check seed();
+/// One of the words.
+[[nodiscard]] Check one_of(const std::vector<std::string>& words);
+
+/// Sets the target to the choice, if one was made; the names stand in the order of the enum.
 template <class Enum>
 void choose(const std::optional<std::string>& value, const std::vector<std::string>& names, Enum& target) {
   for (std::size_t i = 0; value && i < names.size(); ++i) {
@@ -24,16 +39,5 @@ void choose(const std::optional<std::string>& value, const std::vector<std::stri
     }
   }
 }
-
-/// Numbers that `accept` takes. Like those below for Option::transform: CLI11 then converts what has been checked, and not
-/// the word itself, in which it would take a leading 0 for octal.
-CLI::Validator number(const std::string& option, const std::function<bool(double)>& accept,
-                      const std::string& expected);
-/// From 1e-100 to 1e100: squares and ratios neither vanish nor overflow.
-CLI::Validator positive(const std::string& option);
-/// 0, or as positive.
-CLI::Validator non_negative(const std::string& option);
-/// Whole numbers from `least` to `most`.
-CLI::Validator count(const std::string& option, long least = 1, long most = 1000000000);
 
 }  // namespace experiments

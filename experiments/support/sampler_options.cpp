@@ -2,7 +2,6 @@
 #include <stdexcept>
 
 #include "command_line.hpp"
-#include "option_checks.hpp"
 
 namespace experiments {
 
@@ -22,9 +21,8 @@ const std::vector<std::string> coordinates_names = {"natural", "unbounded"};
 
 constexpr long recommended_evaluations = 31000;  // those of the published setting
 
-CLI::Validator fraction(const std::string& option) {
-  return number(
-      option, [](double x) { return x >= 0.0 && x < 1.0; }, "a number in [0, 1)");
+Check fraction() {
+  return number([](double x) { return x >= 0.0 && x < 1.0; }, "a number in [0, 1)");
 }
 
 template <class T>
@@ -58,58 +56,51 @@ std::string about_options(std::string message) {
 
 }  // namespace
 
-void SamplerOptions::add_to(CLI::App& app) {
+void SamplerOptions::add_to(Program& program) {
   const std::string of_reading = "Reading, option by option";
   const std::string group = "Sampler beyond the paper";
-  add_choice(app, "--deviation", deviation, deviation_names,
-             "Standard deviation in the CoV (Eq. 6): N or N-1");
-  add_choice(app, "--counted", counted, counted_names, "Samples that the criterion counts");
-  add_choice(app, "--move", move, move_names, "How a stage moves its samples");
-  add_choice(app, "--centre", centre, centre_names, "Mean in the proposal covariance (Eq. 5)");
-  add_choice(app, "--boundary", boundary, boundary_names, "Proposals outside the prior box");
-  const auto add = [&](const char* name, auto& value, const CLI::Validator& check,
-                       const std::string& in_group, const std::string& description) {
-    app.add_option(name, value, description)->group(in_group)->transform(check);
-  };
-  add("--move-steps", move_steps, count("--move-steps"), of_reading,
-      "Metropolis steps a chain and stage (resample-move)");
-  add("--proposal-scale", proposal_scale, positive("--proposal-scale"), of_reading, "gamma of Eq. 5");
-  add("--cov-target", cov_target, positive("--cov-target"), of_reading, "Criterion of TMCMC (Eq. 6)");
-  add("--ess-fraction", ess_fraction,
-      number(
-          "--ess-fraction", [](double x) { return x > 0.0 && x <= 1.0; }, "a number in (0, 1]"),
-      of_reading, "Criterion of TMCMC-II as a fraction of N (Eq. 9)");
-  add("--max-stages", max_stages, count("--max-stages"), of_reading, "Most stages a run may take");
-  add("--minimum-step", minimum_step, fraction("--minimum-step"), of_reading, "Smallest step of beta");
-  app.add_option("--samples", samples, "N, samples a run (1000; recommended: what the budget gives)")
-      ->transform(count("--samples", 2));
+  program.add_choice("--deviation", deviation, deviation_names,
+                     "Standard deviation in the CoV (Eq. 6): N or N-1");
+  program.add_choice("--counted", counted, counted_names, "Samples that the criterion counts");
+  program.add_choice("--move", move, move_names, "How a stage moves its samples");
+  program.add_choice("--centre", centre, centre_names, "Mean in the proposal covariance (Eq. 5)");
+  program.add_choice("--boundary", boundary, boundary_names, "Proposals outside the prior box");
+  program.add_number("--move-steps", move_steps, count(),
+                     "Metropolis steps a chain and stage (resample-move)", of_reading);
+  program.add_number("--proposal-scale", proposal_scale, positive(), "gamma of Eq. 5", of_reading);
+  program.add_number("--cov-target", cov_target, positive(), "Criterion of TMCMC (Eq. 6)", of_reading);
+  program.add_number("--ess-fraction", ess_fraction,
+                     number([](double x) { return x > 0.0 && x <= 1.0; }, "a number in (0, 1]"),
+                     "Criterion of TMCMC-II as a fraction of N (Eq. 9)", of_reading);
+  program.add_number("--max-stages", max_stages, count(), "Most stages a run may take", of_reading);
+  program.add_number("--minimum-step", minimum_step, fraction(), "Smallest step of beta", of_reading);
+  program.add_number("--samples", samples, count(2),
+                     "N, samples a run (1000; recommended: what the budget gives)");
 
-  add_choice(app, "--sampler", sampler, sampler_names,
-             "Sampler of the reading, or the recommended one; both criteria stay", group);
-  add_choice(app, "--resampling", resampling, resampling_names, "Choice of the starts", group);
-  add("--chains", chains, count("--chains"), group, "M, chains of waste-free");
-  add("--mixing-correlation", mixing_correlation, fraction("--mixing-correlation"), group,
-      "Go on moving until states and starts correlate by this at most (resample-move)");
-  add("--max-move-steps", max_move_steps, count("--max-move-steps"), group,
-      "Most steps with --mixing-correlation");
-  add_choice(app, "--scale-rule", scale_rule, scale_rule_names, "Scale of the random walks", group);
-  add("--target-acceptance", target_acceptance,
-      number(
-          "--target-acceptance", [](double x) { return x > 0.0 && x < 1.0; }, "a number between 0 and 1"),
-      group, "Of the random walks, with --scale-rule target-acceptance");
-  add_choice(app, "--coordinates", coordinates, coordinates_names, "Of the proposals: parameters or logits",
-             group);
-  add_choice(app, "--random-subsets", random_subsets, no_yes, "Change random sets of coordinates", group);
-  add("--independent-fraction", independent_fraction,
-      number(
-          "--independent-fraction", [](double x) { return x >= 0.0 && x <= 1.0; }, "a number in [0, 1]"),
-      group, "Share of independent proposals");
-  add_choice(app, "--cross-fit", cross_fit, no_yes, "Fit the proposals of half the chains to the others",
-             group);
-  add("--evaluation-budget", evaluation_budget, count("--evaluation-budget"), group,
-      fmt::format("Log-likelihoods a run (recommended: {})", recommended_evaluations));
-  app.add_flag("--diagnose", diagnose, "Error of the log-evidence, effective sample sizes, warnings")
-      ->group(group);
+  program.add_choice("--sampler", sampler, sampler_names,
+                     "Sampler of the reading, or the recommended one; both criteria stay", group);
+  program.add_choice("--resampling", resampling, resampling_names, "Choice of the starts", group);
+  program.add_number("--chains", chains, count(), "M, chains of waste-free", group);
+  program.add_number("--mixing-correlation", mixing_correlation, fraction(),
+                     "Go on moving until states and starts correlate by this at most (resample-move)", group);
+  program.add_number("--max-move-steps", max_move_steps, count(), "Most steps with --mixing-correlation",
+                     group);
+  program.add_choice("--scale-rule", scale_rule, scale_rule_names, "Scale of the random walks", group);
+  program.add_number("--target-acceptance", target_acceptance,
+                     number([](double x) { return x > 0.0 && x < 1.0; }, "a number between 0 and 1"),
+                     "Of the random walks, with --scale-rule target-acceptance", group);
+  program.add_choice("--coordinates", coordinates, coordinates_names,
+                     "Of the proposals: parameters or logits", group);
+  program.add_choice("--random-subsets", random_subsets, no_yes, "Change random sets of coordinates", group);
+  program.add_number("--independent-fraction", independent_fraction,
+                     number([](double x) { return x >= 0.0 && x <= 1.0; }, "a number in [0, 1]"),
+                     "Share of independent proposals", group);
+  program.add_choice("--cross-fit", cross_fit, no_yes, "Fit the proposals of half the chains to the others",
+                     group);
+  program.add_number("--evaluation-budget", evaluation_budget, count(),
+                     fmt::format("Log-likelihoods a run (recommended: {})", recommended_evaluations), group);
+  program.add_flag("--diagnose", diagnose, "Error of the log-evidence, effective sample sizes, warnings",
+                   group);
 }
 
 void SamplerOptions::apply(study::Reading& reading) const {

@@ -101,7 +101,7 @@ pause 500
 kill -KILL $pid
 wait $pid 2>/dev/null
 pause 500
-check "a killed scaling leaves no process" test -z "$(ps -eo pgid=,stat= | awk -v g=$pid '$1 == g && $2 !~ /^Z/')"
+check "a killed scaling leaves no process" test "$(group_runs; echo $?)" = 1
 rm -f .scaling.csv.*.part
 
 # ---------------------------------------------------------------- signals, replicated studies

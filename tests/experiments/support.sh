@@ -56,9 +56,10 @@ small_options() {
     exact_posterior)
       echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv
       return ;;
-    readings) echo --runs 3 --studies 3 --samples 50; return ;;
-    scaling) echo --most-samples 1000 --repetitions 1; return ;;
+    readings) echo --runs 3 --studies 3 --samples 50 --tables 500 --only as_published; return ;;
+    scaling) echo --most-samples 100 --most-threads 1 --repetitions 1; return ;;
   esac
+  case $1 in verdicts | fig9_null_distributions) printf -- '--tables 1000 ' ;; esac
   local help; help=$("$bin/$1" --help)
   case $help in *"--runs "*) printf -- '--runs 3 ' ;; esac
   case $help in *"--studies "*) printf -- '--studies 3 ' ;; esac
@@ -77,12 +78,14 @@ start() {
   pid=$!
   set +m
 }
+# group_runs: whether a process of the group that was started still does. A shell may end before what it has started.
+group_runs() { [ -n "$(ps -eo pgid=,stat= | awk -v g=$pid '$1 == g && $2 !~ /^Z/')" ]; }
 # stop SIGNAL: to the process group, as the terminal does on Ctrl-C. False if it has not ended five seconds later.
 stop() {
-  local tries=0 ended=0
+  local deadline=$((SECONDS + 5)) ended=0
   kill -s "$1" -- -$pid 2>/dev/null
-  while kill -0 $pid 2>/dev/null && [ $tries -lt 250 ]; do sleep 0.02; tries=$((tries + 1)); done
-  kill -0 $pid 2>/dev/null && { ended=1; kill -KILL -- -$pid; }
+  while group_runs && [ $SECONDS -le $deadline ]; do sleep 0.02; done
+  group_runs && { ended=1; kill -KILL -- -$pid; }
   wait $pid 2>/dev/null; status=$?
   return $ended
 }

@@ -23,12 +23,11 @@ int run(std::vector<std::string>& words) {
   SamplerOptions sampler;
   RunOptions run_options;
   program.add_output("CSV");
-  auto& app = program.app();
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  run_options.add_to(app);
-  sampler.add_to(app);
-  physics.add_to(app);
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
+  run_options.add_to(program);
+  sampler.add_to(program);
+  physics.add_to(program);
   return program.run(static_cast<int>(words.size()), argv.data(), [&] {
     study::Reading reading = physics.reading();
     sampler.apply(reading);

@@ -1,0 +1,67 @@
+#include <omp.h>
+
+#include "command_line.hpp"
+
+namespace experiments {
+
+namespace {
+
+const std::vector<std::string> limit_names = {"grid", "supremum"};
+const std::vector<std::string> phase_names = {"discrete-bin", "fourier-coefficient"};
+
+}  // namespace
+
+void PhysicsOptions::add_to(Program& program) {
+  program.add_choice("--reading", reading_name, study::reading_names(),
+                     "Set of options: how text, published scripts and mathematics are read");
+  add_driving_force_to(program);
+  program.add_choice("--limit", limit, limit_names, "S in the limit of continuous motion (Eq. 18)");
+  program.add_choice("--phase", phase, phase_names, "Phase angle (Eq. 21): bin of a transform, or exact");
+  program.add_number("--infeasible-log-likelihood", infeasible_log_likelihood,
+                     number([](double x) { return x < 0.0; }, "a negative number or -inf"),
+                     "Log-likelihood where the motion is not continuous: a number, or -inf",
+                     "Reading, option by option");
+}
+
+void PhysicsOptions::add_driving_force_to(Program& program) {
+  program.add_number("--driving-force", driving_force_n, positive(), "k Y_b, N");
+}
+
+study::Reading PhysicsOptions::reading() const {
+  study::Reading r = study::reading(study::parse_reading(reading_name));
+  choose(limit, limit_names, r.physics.limit);
+  choose(phase, phase_names, r.physics.phase);
+  r.infeasible_log_likelihood = infeasible_log_likelihood.value_or(r.infeasible_log_likelihood);
+  r.physics.driving_force_n = driving_force_n;
+  return r;
+}
+
+void TableOptions::add_to(Program& program) {
+  program.add_number("--tables", draws.tables, count(100),
+                     "Tables of iteration counts that are drawn for each p-value");
+}
+
+void RunOptions::add_seed_to(Program& program) {
+  program.add_number("--seed", seed, experiments::seed(), "Seed of the random streams");
+}
+
+void RunOptions::add_to(Program& program, long least_runs) {
+  program.add_number("--runs", runs, count(least_runs), "Runs of each sampler");
+  add_seed_to(program);
+  add_threads_to(program);
+}
+
+void RunOptions::add_threads_to(Program& program) {
+  program.add_number("--threads", threads, count(0, 4096),
+                     "Threads; 0: as many as the machine has. Results do not depend on it");
+}
+
+study::StudyOptions RunOptions::study_options() const {
+  study::StudyOptions options;
+  options.runs = runs;
+  options.seed = seed;
+  options.threads = threads == 0 ? omp_get_max_threads() : threads;
+  return options;
+}
+
+}  // namespace experiments
