@@ -15,6 +15,7 @@
 #include "kept_run.hpp"
 #include "netcdf/inference_data.hpp"
 #include "shear_frame.hpp"
+#include "tmcmc/diagnostics.hpp"
 
 using namespace experiments;
 
@@ -140,6 +141,12 @@ int main(int argc, char** argv) {
                                 read_prior(prior_path, names),
                                 model};
     const auto result = run_kept(run, log_likelihood, checkpoint);
+    if (result.stop != tmcmc::StopReason::completed) {  // not the posterior: nothing that looks like it
+      archive::remove_checkpoint(checkpoint);
+      throw std::runtime_error(
+          fmt::format("ended at beta = {:.4g} after {} stages: {}: expected more --evaluations",
+                      result.final.beta, result.stages.size(), tmcmc::describe(result.stop)));
+    }
     report(program, result);
     if (csv) {
       for (Eigen::Index i = 0; i < result.final.points.rows(); ++i) {
@@ -151,8 +158,6 @@ int main(int argc, char** argv) {
       netcdf::write_inference_data(*netcdf_file, inference_data(result, observations, run_options.seed));
     }
     io::commit_all(csv, netcdf_file);
-    if (!checkpoint.empty()) {
-      archive::remove_checkpoint(checkpoint);
-    }
+    archive::remove_checkpoint(checkpoint);
   });
 }

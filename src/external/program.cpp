@@ -4,10 +4,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
+#include <optional>
 
 #include "external/child.hpp"
 #include "io/csv.hpp"
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 const std::string scratch_name = "log-likelihood";
 const std::string points_name = "points.csv";
 const std::string results_name = "log_likelihoods.csv";
+const std::string column = "log_likelihood";
 
 std::string end_of(const ChildEnd& end, double timeout_seconds) {
   switch (end.kind) {
@@ -37,13 +39,14 @@ std::string end_of(const ChildEnd& end, double timeout_seconds) {
   return {};
 }
 
-bool is_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') {
-    text.remove_prefix(1);
+/// A log-likelihood, or nothing: NaN and +inf are no likelihoods.
+std::optional<double> log_likelihood_in(const io::CsvTable& table, Eigen::Index row) {
+  try {
+    const double value = table.number_or_nan(static_cast<std::size_t>(row), column);
+    return value < std::numeric_limits<double>::infinity() ? std::optional(value) : std::nullopt;
+  } catch (const io::InputError&) {
+    return std::nullopt;
   }
-  double value = 0.0;
-  return std::from_chars(text.data(), text.data() + text.size(), value).ptr == text.data() + text.size() &&
-         !text.empty();
 }
 
 }  // namespace
@@ -112,21 +115,21 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   }
   try {
     const auto table = io::CsvTable::read(output);
-    table.require_columns({"log_likelihood"});
+    table.require_columns({column});
     const auto rows = static_cast<Eigen::Index>(table.rows());
     for (Eigen::Index i = 0; i < std::min(rows, points.rows()); ++i) {
-      const auto text = table.cell(static_cast<std::size_t>(i), "log_likelihood");
-      if (!is_number(text)) {
-        fail(fmt::format("wrote the log-likelihood '{}': expected a number or -inf", io::printable(text)), i,
-             false);
+      const auto value = log_likelihood_in(table, i);
+      if (!value) {
+        fail(fmt::format("wrote the log-likelihood '{}': expected a number or -inf",
+                         io::printable(table.cell(static_cast<std::size_t>(i), column))),
+             i, false);
       }
+      log_likelihood[i] = *value;
     }
     if (rows != points.rows()) {
       fail(fmt::format("wrote {} log-likelihoods for {} points", rows, points.rows()),
            std::min(rows, points.rows() - 1), false);
     }
-    const std::vector<double> values = table.numbers_or_nan("log_likelihood");
-    log_likelihood = Eigen::Map<const Eigen::VectorXd>(values.data(), points.rows());
   } catch (const io::InputError& error) {
     std::string what = error.what();
     if (const auto at = what.find(output); at != std::string::npos) {

@@ -39,9 +39,9 @@ class Program {
   explicit Program(ProgramOptions options);
 
   /// \param points  n x d
-  /// \param log_likelihood  n, overwritten; NaN and plus infinity are passed on
+  /// \param log_likelihood  n, overwritten
   /// \throws ProgramError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
-  ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is no number;
+  ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is neither a number nor minus infinity;
   ///         io::OutputError if the points cannot be written.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;

@@ -303,6 +303,13 @@ std::vector<double> CsvTable::numbers_or_nan(std::string_view column) const {
   return parsed_column<double>(column, parse_any_double);
 }
 
+double CsvTable::number_or_nan(std::size_t row, std::string_view column) const {
+  double value = 0.0;
+  const std::string_view expected = parse_any_double(cell(row, column), value);
+  if (!expected.empty()) fail(row, column, expected);
+  return value;
+}
+
 std::vector<long> CsvTable::integers(std::string_view column) const {
   return parsed_column<long>(column, parse_integer);
 }

@@ -61,8 +61,9 @@ class CsvTable {
   /// (1e400, 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
   std::vector<double> numbers(std::string_view column) const;         ///< finite numbers only
   std::vector<double> numbers_or_nan(std::string_view column) const;  ///< nan, inf and -inf too, in any case
-  std::vector<long> integers(std::string_view column) const;          ///< no point and no exponent
-  std::vector<std::string> text(std::string_view column) const;       ///< any text, the empty one included
+  double number_or_nan(std::size_t row, std::string_view column) const;  ///< one cell of the same
+  std::vector<long> integers(std::string_view column) const;             ///< no point and no exponent
+  std::vector<std::string> text(std::string_view column) const;          ///< any text, the empty one included
 
   /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected` completes
   /// the sentence "expected ...".

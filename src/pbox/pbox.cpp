@@ -66,6 +66,7 @@ Ecdf::Ecdf(std::vector<double> samples) : sorted_(std::move(samples)) {
 }
 
 double Ecdf::operator()(double x) const {
+  if (std::isnan(x)) return x;
   const auto above = std::upper_bound(sorted_.begin(), sorted_.end(), x);
   return static_cast<double>(above - sorted_.begin()) / static_cast<double>(sorted_.size());
 }
@@ -100,6 +101,7 @@ PBox envelope(std::span<const Ecdf> ecdfs) {
 
 Bounds evaluate(const PBox& box, double x) {
   require_consistent(box);
+  if (std::isnan(x)) return {x, x};
   const auto above = std::upper_bound(box.x.begin(), box.x.end(), x);
   if (above == box.x.begin()) return {0.0, 0.0};
   if (above == box.x.end()) return {1.0, 1.0};

@@ -15,7 +15,7 @@ class Ecdf {
   /// Sorts the samples, O(n log n). Throws std::invalid_argument if there is none or one is not finite.
   explicit Ecdf(std::vector<double> samples);
 
-  /// The fraction of the samples that are <= x: a step function, continuous from the right. O(log n).
+  /// The fraction of the samples that are <= x: a step function, continuous from the right; NaN at NaN. O(log n).
   double operator()(double x) const;
 
   /// The samples in ascending order, duplicates kept.
@@ -46,7 +46,7 @@ struct Bounds {
 /// O(M log M) for M samples in total. Throws std::invalid_argument on an empty set.
 PBox envelope(std::span<const Ecdf> ecdfs);
 
-/// The bounds at x. O(log n). Throws std::invalid_argument if the vectors are empty or differ in length.
+/// The bounds at x; NaN at NaN. O(log n). Throws std::invalid_argument if the vectors are empty or differ in length.
 Bounds evaluate(const PBox& box, double x);
 
 /// The exact integral of (upper - lower) dx (Eq. 25), in the unit of x, summed in index order.

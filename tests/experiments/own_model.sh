@@ -58,8 +58,12 @@ script "$rows | sed 4s/.*/abc/ >>\"\$2\"";         fails "wrote the log-likeliho
 script 'echo nonsense >"$2"; echo 1 >>"$2"';       fails 'log_likelihood'
 script 'sleep 60 & sleep 60';                      fails 'took more than 2 s and was killed'
 check "nothing it started is left" test -z "$(pgrep -f 'sleep 60' || true)"
-script "$rows | sed 4s/.*/nan/ >>\"\$2\""
-expect_error 1 'log-likelihood is nan at (' $own --command ./program.sh --output failed.csv
+for value in nan inf 1e400 +-5 '""'; do
+  script "$rows | sed '4s/.*/$value/' >>\"\$2\"";  fails "wrote the log-likelihood '${value#\"\"}': expected a number or -inf; point 4 of 200"
+done
+{ echo mode,frequency_hz; yes 1,2.345 | head -n 3000; yes 2,6.5 | head -n 3000; } >many.csv  # no noise at all
+expect_error 1 'next stage beyond evaluation_budget: expected more --evaluations' $own --observations many.csv --output failed.csv --netcdf failed.nc
+check "what is no posterior is not written" test "$(echo failed.*)" = 'failed.*'
 expect_error 1 'missing.sh: No such file' $own --command ./missing.sh --output failed.csv
 expect_error 1 'expected a program that can be run' $own --command ./whole.csv --output failed.csv
 check "the directories of the points are gone" test -z "$(ls "$TMPDIR")"

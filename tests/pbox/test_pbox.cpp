@@ -110,6 +110,10 @@ TEST_CASE("a p-box is evaluated from the right, and beyond its ends", "[pbox]") 
   check(std::nextafter(10.0, 0.0), 0.5, 1.0);
   check(10.0, 1.0, 1.0);
   check(1e300, 1.0, 1.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(pbox::evaluate(box, nan).lower));
+  CHECK(std::isnan(pbox::evaluate(box, nan).upper));
+  CHECK(std::isnan(pbox::Ecdf({1.0, 2.0})(nan)));
 }
 
 TEST_CASE("empty sets and inconsistent p-boxes are refused", "[pbox]") {
