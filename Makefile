@@ -27,7 +27,7 @@ help:
 	@echo 'make verify    check the manifest; regenerate everything into build/verify and compare with the committed files'
 	@echo 'make verify-parts  the same in three minutes: of the four studies that take minutes each, parts'
 	@echo 'make check-manifest  the committed files against the hashes of the manifest, in a second'
-	@echo 'make sanitize  the whole test suite with the address, undefined-behaviour (g++) and thread sanitizers (clang++)'
+	@echo 'make sanitize  the whole test suite with the address, undefined-behaviour and thread sanitizers'
 	@echo 'make tidy      clang-tidy over src, experiments and bench'
 	@echo 'make coverage  lines of src/ that the tests run'
 	@echo 'make mutations deliberate faults in src/, and which test sees each (half an hour)'

@@ -144,6 +144,7 @@ int main(int argc, char** argv) {
 
   return program.run(argc, argv, [&] {
     const auto printed = [&](const std::string& file) {
+      program.add_read_file(printed_directory + "/" + file);
       return io::CsvTable::read(printed_directory + "/" + file);
     };
     std::vector<Cell> cells;

@@ -79,6 +79,17 @@ void report(const Program& program, const tmcmc::Result& result) {
   }
 }
 
+const char* advice(tmcmc::StopReason stop) {
+  switch (stop) {
+    case tmcmc::StopReason::budget:
+      return ": expected more --evaluations";
+    case tmcmc::StopReason::step_too_small:
+      return ": expected log-likelihoods on a smaller scale; -inf excludes a point";
+    default:
+      return "";
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -130,6 +141,9 @@ int main(int argc, char** argv) {
     const std::string checkpoint = checkpoint_path.empty() && csv && !csv->in_place()
                                        ? program.output() + ".checkpoint"
                                        : checkpoint_path;
+    if (checkpoint == "-") {
+      throw std::invalid_argument("--checkpoint: value '-': expected a file");
+    }
     if (!checkpoint.empty() && netcdf_file && io::is_same_output(checkpoint, netcdf_path)) {
       throw std::invalid_argument(
           fmt::format("--netcdf: value '{}': expected another file than the checkpoint",
@@ -143,9 +157,9 @@ int main(int argc, char** argv) {
     const auto result = run_kept(run, log_likelihood, checkpoint);
     if (result.stop != tmcmc::StopReason::completed) {  // not the posterior: nothing that looks like it
       archive::remove_checkpoint(checkpoint);
-      throw std::runtime_error(
-          fmt::format("ended at beta = {:.4g} after {} stages: {}: expected more --evaluations",
-                      result.final.beta, result.stages.size(), tmcmc::describe(result.stop)));
+      throw std::runtime_error(fmt::format("ended at beta = {:.4g} after {} stages: {}{}", result.final.beta,
+                                           result.stages.size(), tmcmc::describe(result.stop),
+                                           advice(result.stop)));
     }
     report(program, result);
     if (csv) {

@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
   std::string table4 = published("table4_iteration_counts.csv");
   program.add_output("CSV with one row a reading and sampler");
   inputs.add_observations_to(program);
-  run_options.add_to(program);
+  run_options.add_to(program, 2);
   program.add_number("--studies", studies, count(3, 1000000), "Replicated studies a reading");
   program.add_number("--samples", samples, count(2), "N, samples a run");
   table_options.add_to(program);
@@ -124,6 +124,12 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     const auto observations = read_observations(inputs.observations);
     const auto printed = read_printed_tables(table3, table4);
+    for (const auto& column : printed.counts) {
+      if (column.sampler != "TMCMC" && column.sampler != "TMCMC-II") {
+        throw io::InputError(fmt::format("{}: column '{}': expected TMCMC and TMCMC-II, which are run here",
+                                         table4, io::printable(column.sampler)));
+      }
+    }
     auto options = run_options.study_options();
     auto list = variants(samples);
     if (!only.empty()) {

@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
                      "Number of the first study, for sharing the work");
   inputs.add_observations_to(program);
   inputs.add_prior_to(program);
-  run_options.add_to(program);
+  run_options.add_to(program, 2);
   sampler.add_to(program);
   physics.add_to(program);
 

@@ -5,6 +5,7 @@
 // Data: Tables 3 and 4 and the claims as printed; replicated_study.csv; the exact posterior for C1 and Table 1 for C7.
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "inputs.hpp"
@@ -70,6 +71,10 @@ Judged judge_stated_force(const study::Audit& audit, std::size_t observations) {
           "observations; likelihood ratio {:.1f}, 5 % bound {:.2f}, p = {:.1g}",
           test.chi_squared, test.value, fit.chi_squared, fit.estimate, observations, test.likelihood_ratio,
           critical, test.likelihood_ratio_p)};
+}
+
+std::string markdown_cell(const std::string& text) {
+  return boost::algorithm::replace_all_copy(text, "|", "\\|");
 }
 
 /// C6: does the most frequent number of iterations in Table 4 agree with the text?
@@ -214,8 +219,8 @@ int main(int argc, char** argv) {
       const Judged judged = judge(ids[i]);
       program.report("{}  {}\n    number: {}; claim: {}\n    {}\n", ids[i], texts[i], judged.number,
                      name_of(judged.claim), judged.evidence);
-      markdown += fmt::format("| {} | {} | {} | **{}** | {} |\n", ids[i], texts[i], judged.number,
-                              name_of(judged.claim), judged.evidence);
+      markdown += fmt::format("| {} | {} | {} | **{}** | {} |\n", ids[i], markdown_cell(texts[i]),
+                              judged.number, name_of(judged.claim), judged.evidence);
       if (csv) {
         csv->row(ids[i], places[i], texts[i], judged.number, name_of(judged.claim), judged.evidence);
       }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -151,27 +152,45 @@ void Program::add_file_output(const std::string& option, std::string& path, cons
   add_text(option, path, "FILE", description);
 }
 
-/// No value is empty, and no file is written that another option reads or writes.
-void Program::check_paths() const {
-  std::vector<const CLI::Option*> files;
+void Program::add_read_file(const std::string& path) {
+  read_files_.push_back(path);
+  if (is_parsed_) {
+    check_paths();
+  }
+}
+
+void Program::print(std::string text) const {
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ' && c != '\n') || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  std::fwrite(text.data(), 1, text.size(), writes_to_stdout_ ? stderr : stdout);
+}
+
+/// No value is empty, and no file is written that is read, or written by another option.
+void Program::check_paths() {
+  is_parsed_ = true;
+  std::vector<std::pair<const CLI::Option*, std::string>> files;
   for (const CLI::Option* option : app_->get_options()) {
     const bool has_value = option->get_items_expected_max() > 0;
     if (has_value && option->count() > 0 && option->results().back().empty()) {
       throw std::invalid_argument(
           fmt::format("{}: value '': expected a value (see --help)", option->get_name()));
     }
-    const bool is_file = option->get_type_name() == "FILE" || option->get_type_name() == "CSV";
-    if (is_file && !value_of(*option).empty()) {
-      files.push_back(option);
+    const std::string type = option->get_type_name();
+    if ((type == "FILE" || type == "CSV" || type == "PROGRAM") && !value_of(*option).empty()) {
+      files.emplace_back(option, value_of(*option));
+      writes_to_stdout_ = writes_to_stdout_ || (type == "FILE" && value_of(*option) == "-");
     }
   }
-  for (const CLI::Option* written : files) {
-    for (const CLI::Option* other : files) {
-      if (written != other && written->get_type_name() == "FILE" &&
-          io::is_same_output(value_of(*written), value_of(*other))) {
-        throw std::invalid_argument(fmt::format("{}: value '{}': expected another file than that of {}",
-                                                written->get_name(), io::printable(value_of(*written), 200),
-                                                other->get_name()));
+  for (const std::string& path : read_files_) {
+    files.emplace_back(nullptr, path);
+  }
+  for (const auto& [written, path] : files) {
+    for (const auto& [other, other_path] : files) {
+      if (written != nullptr && written != other && written->get_type_name() == "FILE" &&
+          io::is_same_output(path, other_path)) {
+        throw std::invalid_argument(fmt::format(
+            "{}: value '{}': expected another file than {}", written->get_name(), io::printable(path, 200),
+            other == nullptr ? "one that is read" : "that of " + other->get_name()));
       }
     }
   }
@@ -221,7 +240,7 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
   } catch (const std::exception& error) {
     return fail(1, error.what());
   }
-  if (output_ == "-" && std::ferror(stderr) != 0) {
+  if (writes_to_stdout_ && std::ferror(stderr) != 0) {
     return 2;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

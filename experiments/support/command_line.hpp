@@ -80,24 +80,31 @@ class Program {
   /// Parses, calls body, and turns errors into one line on stderr and an exit status.
   int run(int argc, char** argv, const std::function<void()>& body);
 
-  /// Part of the report, to stdout (to stderr if stdout carries a CSV); nothing with --quiet. One that cannot be written
+  /// Names a file that is read without an option of its own: no output may be written to it.
+  /// \throws std::invalid_argument if an option that was parsed says so.
+  void add_read_file(const std::string& path);
+
+  /// Part of the report, without control characters, to stdout (to stderr if stdout carries an output); nothing with --quiet. One that cannot be written
   /// does not stop the work: the exit status tells.
   template <class... Args>
   void report(fmt::format_string<Args...> format, Args&&... args) const {
     if (!quiet_ && leads()) {
-      const std::string text = fmt::format(format, std::forward<Args>(args)...);
-      std::fwrite(text.data(), 1, text.size(), output_ == "-" ? stderr : stdout);
+      print(fmt::format(format, std::forward<Args>(args)...));
     }
   }
 
  private:
-  void check_paths() const;
+  void check_paths();
+  void print(std::string text) const;
   [[nodiscard]] bool leads() const { return ranks_ == nullptr || ranks_->rank() == 0; }
 
   std::unique_ptr<CLI::App> app_;
   std::string output_;
   bool quiet_ = false;
   bool show_options_ = false;
+  bool writes_to_stdout_ = false;
+  bool is_parsed_ = false;
+  std::vector<std::string> read_files_;
   distributed::Ranks* ranks_ = nullptr;
 };
 

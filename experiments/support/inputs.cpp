@@ -91,6 +91,7 @@ void InputFiles::add_observations_to(Program& program) {
 }
 
 void InputFiles::add_prior_to(Program& program) {
+  program.add_read_file(published("table2_prior.csv"));  // what the reading starts from
   program.add_input(
       "--prior", prior,
       "Bounds of the uniform prior: CSV with columns parameter, lower, upper; without it Table 2 as the "

@@ -124,6 +124,7 @@ struct GroupedColumns {
 struct PrintedTables {
   std::vector<study::PrintedArea> areas;  ///< friction force and natural frequency of each sampler
   std::vector<study::PrintedCounts> counts;
+  std::string counts_path;
 };
 /// Both tables have to name the same samplers.
 /// \throws io::InputError naming file, line, column and value.

@@ -11,6 +11,17 @@ namespace {
 
 constexpr long largest_study = 4294967295;  // of the random streams, 2^32 - 1
 constexpr long most_printed_runs = 10000;   // each is drawn many times over
+constexpr long least_studies = 3;           // of a sampler, for a null distribution
+constexpr double most_ordinary = 1e100;     // sums and squares do not overflow
+
+bool is_ordinary(double x) {
+  return x >= 1.0 / most_ordinary && x <= most_ordinary;
+}
+
+std::string without_plus_and_spaces(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t+");
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
 
 /// \throws io::InputError unless every study has each sampler of the file once.
 void require_same_samplers(const io::CsvTable& table, const std::vector<long>& studies,
@@ -71,7 +82,9 @@ GroupedColumns read_samples(const io::CsvTable& table) {
     result.values[s].assign(result.columns.size(), std::vector<std::vector<double>>(run_index[s].size()));
   }
   for (std::size_t c = 0; c < result.columns.size(); ++c) {
-    const auto numbers = table.numbers(result.columns[c]);
+    const auto numbers = checked(
+        table, result.columns[c], table.numbers(result.columns[c]),
+        [](double x) { return std::fabs(x) <= most_ordinary; }, "a number from -1e100 to 1e100");
     for (std::size_t row = 0; row < numbers.size(); ++row) {
       result.values[place[row].first][c][place[row].second].push_back(numbers[row]);
     }
@@ -130,11 +143,13 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
   for (const std::size_t parameter :
        {std::size_t{friction::friction_force}, std::size_t{friction::natural_frequency}}) {
     const auto& column = parameter_columns[parameter];
-    static_cast<void>(positive_numbers(areas, column));
+    static_cast<void>(
+        checked(areas, column, areas.numbers(column), is_ordinary, "a number from 1e-100 to 1e100"));
     for (std::size_t row = 0; row < samplers.size(); ++row) {
-      printed.areas.push_back({samplers[row], parameter, std::string(areas.cell(row, column))});
+      printed.areas.push_back({samplers[row], parameter, without_plus_and_spaces(areas.cell(row, column))});
     }
   }
+  printed.counts_path = table4;
   const auto counts = io::CsvTable::read(table4);
   const auto iterations = positive_integers(counts, "iterations");
   require_once(counts, iterations, "iterations", "each number of iterations once");
@@ -155,6 +170,9 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
     const auto runs = checked(
         counts, sampler, counts.integers(sampler), [](long n) { return n >= 0 && n <= most_printed_runs; },
         "a number of runs from 0 to 10000");
+    if (std::all_of(runs.begin(), runs.end(), [](long n) { return n == 0; })) {
+      counts.fail(0, sampler, "at least one run in the column");
+    }
     study::PrintedCounts column{sampler, {}};
     for (std::size_t row = 0; row < runs.size(); ++row) {
       column.counts[iterations[row]] = runs[row];
@@ -167,11 +185,16 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
 std::vector<study::StudySummary> read_studies(const std::string& path, const PrintedTables& printed) {
   auto studies = read_studies(path);
   for (const auto& column : printed.counts) {
-    if (std::none_of(studies.begin(), studies.end(),
-                     [&](const auto& s) { return s.sampler == column.sampler; })) {
+    const auto count = std::count_if(studies.begin(), studies.end(),
+                                     [&](const auto& s) { return s.sampler == column.sampler; });
+    if (count == 0) {
       throw io::InputError(fmt::format(
           "{}: column 'sampler': no row '{}': expected studies of each sampler of the printed tables", path,
           io::printable(column.sampler)));
+    }
+    if (count < least_studies) {
+      throw io::InputError(fmt::format("{}: column 'sampler': {} rows '{}': expected at least {} studies",
+                                       path, count, io::printable(column.sampler), least_studies));
     }
   }
   return studies;
@@ -179,8 +202,8 @@ std::vector<study::StudySummary> read_studies(const std::string& path, const Pri
 
 study::Null null_of(const std::vector<study::StudySummary>& studies, const PrintedTables& printed) {
   if (printed.counts.size() != 2) {
-    throw io::InputError(fmt::format(
-        "Table 4 as printed: {} columns of counts: expected those of two samplers", printed.counts.size()));
+    throw io::InputError(fmt::format("{}: {} columns of counts: expected those of two samplers",
+                                     printed.counts_path, printed.counts.size()));
   }
   return study::null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
 }

@@ -26,8 +26,8 @@ constexpr std::size_t largest_file_bytes = std::size_t{1} << 32U;
 
 void require_size(const std::filesystem::path& path, std::size_t bytes) {
   if (bytes <= largest_file_bytes) return;
-  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes", printable_path(path),
-                               bytes, largest_file_bytes));
+  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes",
+                               printable_path(path), bytes, largest_file_bytes));
 }
 
 class ReadDescriptor {
@@ -156,10 +156,11 @@ void CsvTable::parse() {
     }
     begin = newline + 1;
   }
-  if (names_.empty()) throw InputError(fmt::format("{}:1: empty file: expected a header line", printable_path(path_)));
+  if (names_.empty())
+    throw InputError(fmt::format("{}:1: empty file: expected a header line", printable_path(path_)));
   if (lines_.empty()) {
-    throw InputError(fmt::format("{}:{}: no rows: expected at least one row after the header", printable_path(path_),
-                                 header_line_));
+    throw InputError(fmt::format("{}:{}: no rows: expected at least one row after the header",
+                                 printable_path(path_), header_line_));
   }
 }
 
@@ -177,8 +178,8 @@ void CsvTable::parse_header(std::size_t begin, std::size_t end, std::size_t line
   for (const Cell cell : header) {
     const std::string_view name = view(cell);
     if (name.empty()) {
-      throw InputError(fmt::format("{}:{}: column {}: value '': expected a column name", printable_path(path_), line,
-                                   names_.size() + 1));
+      throw InputError(fmt::format("{}:{}: column {}: value '': expected a column name",
+                                   printable_path(path_), line, names_.size() + 1));
     }
     if (!places_.emplace(name, names_.size()).second) {
       throw InputError(fmt::format("{}:{}: column {}: value '{}': expected each column name once",
@@ -267,8 +268,8 @@ std::size_t CsvTable::index(std::string_view column) const {
 void CsvTable::require_columns(std::initializer_list<std::string_view> columns) const {
   for (const std::string_view column : columns) {
     if (has(column)) continue;
-    throw InputError(fmt::format("{}:{}: header '{}': expected a column '{}'", printable_path(path_), header_line_,
-                                 printable(fmt::format("{}", fmt::join(names_, ",")), 200),
+    throw InputError(fmt::format("{}:{}: header '{}': expected a column '{}'", printable_path(path_),
+                                 header_line_, printable(fmt::format("{}", fmt::join(names_, ",")), 200),
                                  printable(column)));
   }
 }
@@ -280,8 +281,8 @@ std::string_view CsvTable::cell(std::size_t row, std::string_view column) const 
 }
 
 void CsvTable::fail(std::size_t row, std::string_view column, std::string_view expected) const {
-  throw InputError(fmt::format("{}:{}: column '{}': value '{}': expected {}", printable_path(path_), line(row),
-                               printable(column), printable(cell(row, column)), expected));
+  throw InputError(fmt::format("{}:{}: column '{}': value '{}': expected {}", printable_path(path_),
+                               line(row), printable(column), printable(cell(row, column)), expected));
 }
 
 template <class Value, class Parser>

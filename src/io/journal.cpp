@@ -147,7 +147,8 @@ void Journal::finish(std::string_view header) {
   }
   file.commit();
   std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  const auto through_links = std::filesystem::canonical(path_, ignored);  // a link to the journal stays
+  std::filesystem::remove(through_links.empty() ? path_ : through_links, ignored);
 }
 
 }  // namespace io

@@ -17,7 +17,7 @@ struct Slot {
   char path[PATH_MAX];
 };
 
-constexpr int slot_count = 64;
+constexpr int slot_count = 4200;  // as many threads as may be asked for, each with a file, and the outputs
 std::array<Slot, slot_count> slots;
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler needs lock-free atomics");
 

@@ -17,7 +17,7 @@ namespace {
 constexpr pid_t nobody = 0;
 constexpr pid_t claimed = -1;
 
-std::array<std::atomic<pid_t>, 256> leaders;
+std::array<std::atomic<pid_t>, 4096> leaders;
 static_assert(std::atomic<pid_t>::is_always_lock_free, "the signal handler needs lock-free atomics");
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace io {
 
 /// fork() for a child that leads a process group. When this process is ended by a signal (end_cleanly_on_signals) or calls
 /// exit, the group is killed with all that is in it. Returns 0 in the child, and -1 with errno set if there is no
-/// child. Thread-safe; up to 256 groups at a time. Between this call and exec the child may do only what is
+/// child. Thread-safe; up to 4096 groups at a time. Between this call and exec the child may do only what is
 /// async-signal-safe.
 [[nodiscard]] pid_t fork_group() noexcept;
 

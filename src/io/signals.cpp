@@ -34,6 +34,7 @@ struct Line {
 std::array<Line, 2> lines;
 std::string start_of_line;
 std::atomic<pid_t> owner{0};
+std::atomic<bool> is_dying{false};
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler needs lock-free atomics");
 
 void say_what_is_kept() {
@@ -59,10 +60,17 @@ extern "C" void clean_up() {
 }
 
 extern "C" void clean_up_and_die(int signal_number) {
+  // A second signal, to whichever thread, must not end the process before the first one's handler has cleaned up.
+  if (is_dying.exchange(true)) {
+    for (;;) ::pause();
+  }
   clean_up();
   if (owns_the_files() && signal_number != SIGPIPE) say_what_is_kept();
-  // SA_RESETHAND has restored the default action; it is taken when this handler returns.
-  ::raise(signal_number);
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(signal_number, &action, nullptr);
+  ::raise(signal_number);  // delivered when this handler returns
 }
 
 }  // namespace
@@ -78,8 +86,7 @@ void end_cleanly_on_signals(std::string_view program) {
     if (::sigaction(signal_number, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_handler = clean_up_and_die;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigemptyset(&action.sa_mask);
+    ::sigfillset(&action.sa_mask);
     ::sigaction(signal_number, &action, nullptr);
   }
 }

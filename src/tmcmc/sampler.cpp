@@ -138,7 +138,8 @@ State initial_state(const Problem& problem, const Options& options, const Stream
   require_valid(state.points, state.log_likelihood);
   if (count_above(state.log_likelihood, options.infeasible_level) == 0) {
     throw InfeasiblePriorError("none of the " + std::to_string(options.samples) +
-                               " draws from the prior is feasible: the model excludes every one");
+                               " draws from the prior is feasible: the model excludes every one, or finds it "
+                               "less likely than what it excludes");
   }
   return state;
 }

@@ -129,7 +129,7 @@ refuse() {
     expect_error 2 "edited.csv:$line: column '$column': value '$value': expected $expected" timeout 60 "$@" "$option" edited.csv
   done
 }
-head -5 "$source/data/generated/replicated_study.csv" >studies.csv
+head -7 "$source/data/generated/replicated_study.csv" >studies.csv
 head -4 "$source/data/generated/sampling_study_stages.csv" >stages.csv
 head -4 "$source/data/generated/sampling_study_runs.csv" >runs.csv
 mkdir data/generated
@@ -155,6 +155,21 @@ ROWS
 done
 sed 's/TMCMC-II/another/' studies.csv >edited.csv
 expect_error 2 "edited.csv: column 'sampler': no row 'TMCMC-II'" "$bin/verdicts" --replicated edited.csv --output out.csv
+head -5 studies.csv >edited.csv
+expect_error 2 "edited.csv: column 'sampler': 2 rows 'TMCMC': expected at least 3 studies" "$bin/verdicts" --replicated edited.csv --output out.csv
+sed -E '2,$s/,[0-9]+,/,0,/' $table4 >edited.csv
+expect_error 2 "edited.csv:2: column 'TMCMC': value '0': expected at least one run in the column" "$bin/verdicts" --replicated studies.csv --table4 edited.csv --output out.csv
+sed 's/,0\.1714/, +0.1714 /' $table3 >edited.csv
+"$bin/fig9_null_distributions" --replicated studies.csv --tables 100 --quiet --printed-output plain.csv
+"$bin/fig9_null_distributions" --replicated studies.csv --tables 100 --quiet --printed-output again.csv --table3 edited.csv
+check "a plus sign and spaces change nothing: $(diff $table3 edited.csv | wc -l) lines" cmp -s plain.csv again.csv
+check "they were there" test "$(grep -c '+0.1714 ' edited.csv)" = 1
+rm plain.csv again.csv
+# Files that are read without an option of their own.
+expect_error 2 "--output: value 'data/published/table2_prior.csv': expected another file than one that is read" \
+  "$bin/sampling_study" --runs 1 --samples 50 --quiet --output data/published/table2_prior.csv
+expect_error 2 "--output: value 'data/published/table3_pbox_area.csv': expected another file than one that is read" \
+  "$bin/compare_published" --output data/published/table3_pbox_area.csv
 
 for program in verdicts fig9_null_distributions readings; do
   case $program in readings) more='--studies 3 --runs 2' ;; *) more='--replicated studies.csv' ;; esac
@@ -162,7 +177,8 @@ for program in verdicts fig9_null_distributions readings; do
 $table3|3|sampler|TMCMC|each sampler once
 $table3|3|sampler|another|the name of a column of data/published/table4
 $table3|3|sampler|iterations|the name of a column of data/published/table4
-$table3|3|friction_force_n|0|a positive number
+$table3|3|friction_force_n|0|a number from 1e-100 to 1e100
+$table3|3|friction_force_n|1e-320|a number from 1e-100 to 1e100
 ROWS
   refuse --table4 "$bin/$program" --output out.csv $more <<ROWS
 $table4|3|iterations|9|each number of iterations once

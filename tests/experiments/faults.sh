@@ -126,6 +126,18 @@ for signal in INT TERM KILL INT; do
   find . -name '.*.part' -delete
 done
 
+# A second signal does not keep the first one from cleaning up; `timeout` sends two.
+for _ in 1 2 3 4 5 6 7 8; do
+  start "$bin/readings" --output twice.csv
+  wait_for has_temporary_files .
+  pause $((RANDOM % 100))
+  kill -TERM $pid; kill -TERM $pid
+  wait $pid 2>/dev/null; status=$?
+  check "two signals: the status is that of one: $status" test $status = $((128 + $(number_of TERM)))
+  check "two signals: no temporary file" test -z "$(temporary_files)"
+  check "two signals, one line: $(cat said.txt)" test "$(grep -c interrupted said.txt)" = 1
+done
+
 # ---------------------------------------------------------------- damaged journals
 
 start $endless --output out.csv
