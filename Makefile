@@ -25,7 +25,7 @@ help:
 	@echo 'make compare   Tables 1-4 as printed beside ours, on the terminal'
 	@echo 'make test      build and run the tests'
 	@echo 'make verify    check the manifest; regenerate everything into build/verify and compare with the committed files'
-	@echo 'make verify-parts  the same in three minutes: of the four studies that take minutes each, parts'
+	@echo 'make verify-parts  the same in two minutes: of the four studies that take minutes each, parts'
 	@echo 'make check-manifest  the committed files against the hashes of the manifest, in a second'
 	@echo 'make sanitize  the whole test suite with the address, undefined-behaviour and thread sanitizers'
 	@echo 'make tidy      clang-tidy over src, experiments and bench'
