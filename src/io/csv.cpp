@@ -1,72 +1,19 @@
 #include "io/csv.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
+#include "io/csv_bytes.hpp"
+
 namespace io {
 namespace {
 
 constexpr std::size_t whole = std::string::npos;
-constexpr std::size_t read_chunk_bytes = std::size_t{1} << 18U;
-constexpr std::size_t largest_file_bytes = std::size_t{1} << 32U;
-
-[[noreturn]] void fail_unreadable(const std::filesystem::path& path, int error) {
-  throw InputError(fmt::format("{}: cannot be read: {}: expected a CSV file", printable_path(path),
-                               std::generic_category().message(error)));
-}
-
-void require_size(const std::filesystem::path& path, std::size_t bytes) {
-  if (bytes <= largest_file_bytes) return;
-  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes",
-                               printable_path(path), bytes, largest_file_bytes));
-}
-
-class ReadDescriptor {
- public:
-  explicit ReadDescriptor(const std::filesystem::path& path)
-      : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (fd_ < 0) fail_unreadable(path, errno);
-  }
-  ~ReadDescriptor() { ::close(fd_); }
-  ReadDescriptor(const ReadDescriptor&) = delete;
-  ReadDescriptor& operator=(const ReadDescriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
-std::string read_all(const std::filesystem::path& path) {
-  const ReadDescriptor file(path);
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0) fail_unreadable(path, errno);
-  if (S_ISDIR(status.st_mode)) fail_unreadable(path, EISDIR);
-  std::string text;
-  if (status.st_size > 0) {
-    require_size(path, static_cast<std::size_t>(status.st_size));
-    text.reserve(static_cast<std::size_t>(status.st_size) + read_chunk_bytes);
-  }
-  for (;;) {
-    const std::size_t old_size = text.size();
-    text.resize(old_size + read_chunk_bytes);
-    const ssize_t got = ::read(file.get(), text.data() + old_size, read_chunk_bytes);
-    if (got < 0 && errno != EINTR) fail_unreadable(path, errno);
-    text.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    if (got == 0) return text;
-    require_size(path, text.size());
-    // The parser refuses the byte with its place; what follows is not read, for a source of zeros has no end.
-    if (text.find('\0', old_size) != whole) return text;
-  }
-}
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -129,7 +76,7 @@ std::string_view parse_integer(std::string_view text, long& value) {
 CsvTable CsvTable::read(const std::filesystem::path& path) {
   CsvTable table;
   table.path_ = path;
-  table.buffer_ = read_all(path);
+  table.buffer_ = csv_bytes(path);
   table.parse();
   return table;
 }
