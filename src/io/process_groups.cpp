@@ -15,7 +15,7 @@ namespace io {
 namespace {
 
 constexpr pid_t nobody = 0;
-constexpr pid_t claimed = -1;
+constexpr pid_t starting = -1;
 
 std::array<std::atomic<pid_t>, 4096> leaders;
 static_assert(std::atomic<pid_t>::is_always_lock_free, "the signal handler needs lock-free atomics");
@@ -26,7 +26,7 @@ pid_t fork_group() noexcept {
   const ending::Registration registration;
   const auto slot = std::find_if(leaders.begin(), leaders.end(), [](std::atomic<pid_t>& leader) {
     pid_t expected = nobody;
-    return leader.compare_exchange_strong(expected, claimed);
+    return leader.compare_exchange_strong(expected, starting);
   });
   if (slot == leaders.end()) {
     errno = EAGAIN;
