@@ -326,6 +326,8 @@ test-mpi: build-mpi
 	cmake --build --preset mpi --target test_distributed shared_run
 	ctest --preset mpi -R '^distributed'
 
+bench-mpi: export OMPI_ALLOW_RUN_AS_ROOT := 1
+bench-mpi: export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
 bench-mpi: build-mpi
 	cmake --build --preset mpi --target shared_batch
 	mpirun -np 1 build/mpi/bin/shared_batch

@@ -124,12 +124,6 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     const auto observations = read_observations(inputs.observations);
     const auto printed = read_printed_tables(table3, table4);
-    for (const auto& column : printed.counts) {
-      if (column.sampler != "TMCMC" && column.sampler != "TMCMC-II") {
-        throw io::InputError(fmt::format("{}: column '{}': expected TMCMC and TMCMC-II, which are run here",
-                                         table4, io::printable(column.sampler)));
-      }
-    }
     auto options = run_options.study_options();
     auto list = variants(samples);
     if (!only.empty()) {
@@ -137,6 +131,14 @@ int main(int argc, char** argv) {
     }
     if (list.empty()) {
       throw std::invalid_argument(fmt::format("--only: value '{}': expected the name of a reading", only));
+    }
+    for (const auto& column : printed.counts) {
+      const auto arms = study::paper_arms(list.front().reading);
+      if (std::none_of(arms.begin(), arms.end(),
+                       [&](const auto& arm) { return arm.name == column.sampler; })) {
+        throw io::InputError(fmt::format("{}: column '{}': expected the samplers that are run here", table4,
+                                         io::printable(column.sampler)));
+      }
     }
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
