@@ -1,0 +1,37 @@
+/// \file
+/// The exception for a value that is refused: which field, which value, what was expected.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace errors {
+
+/// A value that a library function refuses. It carries the parts of the message, so that a caller who knows more (the
+/// file, the line, the column, the option of the command line) can say where the value stands without reading what().
+class InvalidValue : public std::invalid_argument {
+ public:
+  /// \param field     name of the field as the library calls it, such as "options.samples"
+  /// \param value     the value as text; empty if there is none
+  /// \param expected  completes the sentence "expected ..."
+  InvalidValue(std::string field, std::string value, std::string expected)
+      : std::invalid_argument(field + (value.empty() ? "" : " = " + value) + ": expected " + expected),
+        field_(std::move(field)),
+        value_(std::move(value)),
+        expected_(std::move(expected)) {}
+
+  /// Name of the field, as the library calls it.
+  [[nodiscard]] const std::string& field() const noexcept { return field_; }
+  /// The value as text; empty if there is none.
+  [[nodiscard]] const std::string& value() const noexcept { return value_; }
+  /// What was expected, without the word "expected".
+  [[nodiscard]] const std::string& expected() const noexcept { return expected_; }
+
+ private:
+  std::string field_;
+  std::string value_;
+  std::string expected_;
+};
+
+}  // namespace errors
