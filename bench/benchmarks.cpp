@@ -6,23 +6,23 @@
 
 #include "portable_math/multiversion.hpp"
 #include "reference_sampler.hpp"
-#include "study/study.hpp"
-#include "study/synthetic.hpp"
+#include "replication/study.hpp"
+#include "replication/synthetic.hpp"
 
 namespace {
 
 constexpr int paper_samples = 1000;
 
 friction::Observations observations() {
-  return study::generate_observations({}, study::nominal_ratios(), {}, 1);
+  return replication::generate_observations({}, replication::nominal_ratios(), {}, 1);
 }
 
 struct Setting {
-  study::Reading reading = study::reading(study::ReadingName::as_published);
+  replication::Reading reading = replication::reading(replication::ReadingName::as_published);
   friction::Observations data = observations();
   tmcmc::BoxPrior prior{Eigen::Vector4d(0.01, 0.001, 0.001, 0.001), Eigen::Vector4d(10.0, 10.0, 10.0, 1.0)};
-  tmcmc::Problem problem = study::problem(reading, data, prior);
-  std::vector<study::Arm> arms = study::paper_arms(reading);
+  tmcmc::Problem problem = replication::problem(reading, data, prior);
+  std::vector<replication::Arm> arms = replication::paper_arms(reading);
 };
 
 reference::Model reference_model(const Setting& s) {
@@ -214,12 +214,12 @@ BENCHMARK(one_large_run)->Args({100000, 1})->Args({100000, 2})->Unit(benchmark::
 
 void one_study(benchmark::State& state) {
   const Setting s;
-  study::StudyOptions options;
+  replication::StudyOptions options;
   options.threads = static_cast<int>(state.range(0));
   for (auto _ : state) {
     for (std::uint32_t arm = 0; arm < s.arms.size(); ++arm) {
-      const auto runs = study::run_arm(s.problem, s.arms[arm], arm, options);
-      benchmark::DoNotOptimize(study::pbox_areas(runs, options.threads));
+      const auto runs = replication::run_arm(s.problem, s.arms[arm], arm, options);
+      benchmark::DoNotOptimize(replication::pbox_areas(runs, options.threads));
     }
     ++options.seed;
   }

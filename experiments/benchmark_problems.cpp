@@ -3,7 +3,7 @@
 //
 // Data: none; the problems are in closed form, but for the two-storey shear frame of the TMCMC literature (quadrature).
 
-#include "study/benchmark_problems.hpp"
+#include "replication/benchmark_problems.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
     program.report("{} runs of each problem, seed {}\n", run_options.runs, run_options.seed);
     program.report("{:<24} {:>8} {:>7} {:>9} {:>8} {:>8} {:>8} {:>9} {:>16}\n", "", "evals", "stages", "ln Z",
                    "error", "rms", "s.e.", "distance", "mass of mode 1");
-    const auto problems = study::benchmark_problems();
+    const auto problems = replication::benchmark_problems();
     const auto chosen = [&](const auto& p) { return only.empty() || p.name == only; };
     if (std::none_of(problems.begin(), problems.end(), chosen)) {
       throw std::invalid_argument(fmt::format("--problem: value '{}': expected the name of a problem", only));
@@ -69,8 +69,8 @@ int main(int argc, char** argv) {
       if (!chosen(p)) {
         continue;
       }
-      const auto runs = study::run_arm(p.problem, {p.name, p.options}, index, run_options.study_options(),
-                                       [&] { progress.advance(); });
+      const auto runs = replication::run_arm(p.problem, {p.name, p.options}, index,
+                                             run_options.study_options(), [&] { progress.advance(); });
       std::vector<double> errors, standard_errors, masses;
       double inside = 0.0, evaluations = 0.0, stages = 0.0;
       const double count = static_cast<double>(runs.size());
@@ -98,8 +98,8 @@ int main(int argc, char** argv) {
         distance =
             std::max(distance, kolmogorov(std::move(pooled), [&](double x) { return p.marginal_cdf(j, x); }));
       }
-      const auto mean_error = study::moments(errors).mean;
-      const auto mass = study::moments(masses);
+      const auto mean_error = replication::moments(errors).mean;
+      const auto mass = replication::moments(masses);
       program.report("{:<24} {:>8.0f} {:>7.1f} {:>9.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.4f} {:>16}\n", p.name,
                      evaluations, stages, p.log_evidence, mean_error, root_mean_square(errors),
                      root_mean_square(standard_errors), distance,

@@ -5,13 +5,13 @@
 //
 // Data: design of Table 1 and prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
-#include "study/calibration.hpp"
+#include "replication/calibration.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 
 #include "inputs.hpp"
-#include "study/verdict.hpp"
+#include "replication/verdict.hpp"
 
 using namespace experiments;
 
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
-  study::CalibrationOptions options;
+  replication::CalibrationOptions options;
   std::string ranks_output;
   program.add_output("CSV with one row a sampler and parameter: chi^2 of the ranks, p-values, coverage");
   program.add_file_output("--ranks-output", ranks_output, "CSV of the rank histograms with their 99 % bands");
@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
     const auto prior = prior_for(inputs, reading);
     options.seed = run_options.seed;
     options.threads = run_options.study_options().threads;
-    study::Arm published{"published", study::paper_arms(reading).back().options};
-    study::Arm recommended{"recommended", tmcmc::recommended_options()};
+    replication::Arm published{"published", replication::paper_arms(reading).back().options};
+    replication::Arm recommended{"recommended", tmcmc::recommended_options()};
     recommended.options.infeasible_level = reading.infeasible_log_likelihood;
     recommended.options.diagnose = false;
 
@@ -72,18 +72,18 @@ int main(int argc, char** argv) {
                           !program.quiet());
     std::uint32_t arm_index = 0;
     for (const auto& arm : {published, recommended}) {
-      const auto result = study::calibrate(observations, reading, prior, arm, arm_index++, options,
-                                           [&] { progress.advance(); });
-      std::vector<study::RankHistogram> histograms;
-      std::vector<study::PValue> p;
+      const auto result = replication::calibrate(observations, reading, prior, arm, arm_index++, options,
+                                                 [&] { progress.advance(); });
+      std::vector<replication::RankHistogram> histograms;
+      std::vector<replication::PValue> p;
       for (const auto& ranks : result.ranks) {
-        histograms.push_back(study::rank_histogram(ranks, options));
+        histograms.push_back(replication::rank_histogram(ranks, options));
         const auto& h = histograms.back();
         for (const double value : {h.p_chi_squared, h.p_coverage_50, h.p_coverage_90}) {
           p.push_back({value});
         }
       }
-      const auto adjusted = study::holm(p);
+      const auto adjusted = replication::holm(p);
       const double smallest =
           std::min_element(adjusted.begin(), adjusted.end(), [](const auto& a, const auto& b) {
             return a.value < b.value;

@@ -19,8 +19,8 @@ constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
 struct Cell {
   std::string table, row, column;
   double printed, ours;
-  study::Interval95 interval = {missing_value, missing_value};  // of replicated studies
-  study::PValue p = {missing_value, missing_value};             // adjusted by Holm
+  replication::Interval95 interval = {missing_value, missing_value};  // of replicated studies
+  replication::PValue p = {missing_value, missing_value};             // adjusted by Holm
   std::string verdict = {};
 };
 
@@ -70,27 +70,27 @@ void compare(std::vector<Cell>& cells, const std::string& name, const std::strin
 
 /// Places the cells of Tables 3 and 4 in the distributions of replicated studies. A cell of Table 4 shows its own interval
 /// and the p-value of the whole table.
-void judge(std::vector<Cell>& cells, const std::vector<study::StudySummary>& studies,
+void judge(std::vector<Cell>& cells, const std::vector<replication::StudySummary>& studies,
            const PrintedTables& printed) {
   const auto null = null_of(studies, printed);
-  const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts, null);
+  const auto verdicts = replication::judge_tables(studies, printed.areas, printed.counts, null);
   for (Cell& cell : cells) {
     for (const auto& v : verdicts.areas) {
       if (cell.table == "Table 3" && cell.row == v.sampler && cell.column == parameter_columns[v.parameter]) {
         cell.interval = v.interval;
         cell.p = v.p_holm;
-        cell.verdict = study::name_of(v.number);
+        cell.verdict = replication::name_of(v.number);
       }
     }
     if (cell.table == "Table 4") {
       std::vector<double> counts;
-      for (const auto& s : study::null_studies(studies, cell.column, null)) {
+      for (const auto& s : replication::null_studies(studies, cell.column, null)) {
         const auto found = s.iterations.find(std::stol(cell.row));
         counts.push_back(found == s.iterations.end() ? 0.0 : static_cast<double>(found->second));
       }
-      cell.interval = study::central_95(counts);
+      cell.interval = replication::central_95(counts);
       cell.p = verdicts.counts->p_holm;
-      cell.verdict = study::name_of(verdicts.counts->number);
+      cell.verdict = replication::name_of(verdicts.counts->number);
     }
   }
 }

@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "inputs.hpp"
-#include "study/accuracy.hpp"
-#include "study/verdict.hpp"
+#include "replication/accuracy.hpp"
+#include "replication/verdict.hpp"
 
 using namespace experiments;
 
@@ -23,11 +23,11 @@ struct AreaRange {
 
 AreaRange range_of(std::vector<double> areas) {
   std::sort(areas.begin(), areas.end());
-  return {study::sample_quantile(areas, 0.5), areas.front(), areas.back()};
+  return {replication::sample_quantile(areas, 0.5), areas.front(), areas.back()};
 }
 
-study::KnownPosterior known(const estimation::ExactPosterior& posterior) {
-  study::KnownPosterior truth;
+replication::KnownPosterior known(const estimation::ExactPosterior& posterior) {
+  replication::KnownPosterior truth;
   truth.mean.resize(friction::parameter_count);
   truth.standard_deviation.resize(friction::parameter_count);
   for (int p = 0; p < friction::parameter_count; ++p) {
@@ -65,12 +65,12 @@ int main(int argc, char** argv) {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
-    const auto problem = study::problem(reading, observations, prior);
+    const auto problem = replication::problem(reading, observations, prior);
     const auto truth =
         known(exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior));
     auto published = reading.sampler;
     published.infeasible_level = reading.infeasible_log_likelihood;
-    const auto settings = study::configurations(published);
+    const auto settings = replication::configurations(published);
     const auto chosen = [&](const auto& s) { return only.empty() || s.family == only; };
     const auto chosen_count = std::count_if(settings.begin(), settings.end(), chosen);
     if (chosen_count == 0) {
@@ -98,21 +98,21 @@ int main(int argc, char** argv) {
       if (!chosen(settings[s])) {
         continue;
       }
-      std::vector<study::Run> runs;
+      std::vector<replication::Run> runs;
       std::vector<std::vector<double>> areas(parameter_columns.size());
       for (long k = 0; k < studies; ++k) {
         auto options = run_options.study_options();
         options.study = static_cast<std::uint32_t>(k);
-        auto batch = study::run_arm(
+        auto batch = replication::run_arm(
             problem, {settings[s].family + " " + settings[s].value, settings[s].options}, s, options);
-        const auto of_study = study::pbox_areas(batch);
+        const auto of_study = replication::pbox_areas(batch);
         for (std::size_t p = 0; p < areas.size(); ++p) {
           areas[p].push_back(of_study[static_cast<Eigen::Index>(p)]);
         }
         std::move(batch.begin(), batch.end(), std::back_inserter(runs));
         progress.advance();
       }
-      const auto a = study::accuracy(runs, truth);
+      const auto a = replication::accuracy(runs, truth);
       std::vector<double> medians, lowest, highest;
       for (const auto& of_parameter : areas) {
         const auto range = range_of(of_parameter);

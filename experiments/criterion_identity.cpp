@@ -38,15 +38,15 @@ int main(int argc, char** argv) {
   physics.add_to(program);
 
   return program.run(argc, argv, [&] {
-    study::Reading reading = physics.reading();
+    replication::Reading reading = physics.reading();
     sampler.apply(reading);
     if (!sampler.deviation) {
       reading.sampler.criterion.deviation =
           tmcmc::Deviation::population;  // the identity; N-1 stands beside it
     }
     const auto problem =
-        study::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
-    const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
+        replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
+    const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
     options.validate();
     std::optional<io::CsvWriter> csv;

@@ -26,10 +26,10 @@ int main(int argc, char** argv) {
   physics.add_to(program);
 
   return program.run(argc, argv, [&] {
-    study::Reading reading = physics.reading();
+    replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto problem =
-        study::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
+        replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
       csv.emplace(program.output(),
@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
     program.report("At most {} stages, N = {}\n{:>16} {:>8} {:>10} {:>14}  {}\n", reading.sampler.max_stages,
                    reading.sampler.samples, "N_eff target / N", "stages", "beta", "smallest step", "end");
     for (const double fraction : {0.5, 0.75, 0.9, 0.95, 0.99, 0.999, 1.0}) {
-      const auto arm = study::paper_arms(reading, sampler.cov_target, fraction)[1];
+      const auto arm = replication::paper_arms(reading, sampler.cov_target, fraction)[1];
       const auto result = tmcmc::run(problem, arm.options, {.seed = run_options.seed, .arm = 1});
       double smallest = 1.0;
       for (const auto& stage : result.stages) {

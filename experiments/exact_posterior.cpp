@@ -28,7 +28,7 @@ struct Accuracy {
 
 Accuracy accuracy(const std::vector<double>& estimates, double exact) {
   const auto n = static_cast<double>(estimates.size());
-  const auto m = study::moments(estimates);
+  const auto m = replication::moments(estimates);
   const double spread = estimates.size() > 1 ? m.standard_deviation : std::nan("");
   double squares = 0.0;
   for (const double x : estimates) {

@@ -35,8 +35,8 @@ int main(int argc, char** argv) {
     auto counts_csv =
         open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});
     auto printed_csv = open_csv(printed_output, {"sampler", "parameter", "printed", "low", "high", "p"});
-    const auto verdicts = study::judge_tables(studies, printed.areas, printed.counts,
-                                              null_of(studies, printed), table_options.draws);
+    const auto verdicts = replication::judge_tables(studies, printed.areas, printed.counts,
+                                                    null_of(studies, printed), table_options.draws);
     for (const auto& v : verdicts.areas) {
       const auto& parameter = parameter_columns[v.parameter];
       program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
         printed_csv->row(v.sampler, parameter, v.printed, v.interval.low, v.interval.high, v.p.value);
       }
       std::vector<double> areas;
-      for (const auto& s : study::studies_of(studies, v.sampler)) {
+      for (const auto& s : replication::studies_of(studies, v.sampler)) {
         areas.push_back(s.areas[v.parameter]);
       }
       std::sort(areas.begin(), areas.end());
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
       }
     }
     for (const auto& column : printed.counts) {
-      const auto of_sampler = study::studies_of(studies, column.sampler);
+      const auto of_sampler = replication::studies_of(studies, column.sampler);
       std::map<std::int64_t, std::map<std::int64_t, double>> studies_with;  // iterations -> runs -> studies
       for (const auto& cell : column.counts) {
         studies_with[cell.first];
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
         }
       }
     }
-    const auto report_test = [&](const std::string& what, const study::DevianceTest& test) {
+    const auto report_test = [&](const std::string& what, const replication::DevianceTest& test) {
       program.report(
           "{:<10} Table 4: deviance {:.3g}, 95 % of tables below {:.3g}, p = {:.3g} (standard error "
           "{:.1g})\n",

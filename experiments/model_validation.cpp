@@ -252,7 +252,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     const double driving_force = physics.driving_force_n;
     const auto observations = read_observations(inputs.observations);
-    const auto prior = prior_for(inputs, study::reading(study::ReadingName::corrected));
+    const auto prior = prior_for(inputs, replication::reading(replication::ReadingName::corrected));
     const friction::Likelihood likelihood(observations, {.driving_force_n = driving_force});
     const auto posterior = exact_posterior_for(inputs, likelihood, prior);
     auto csv = open_csv(program.output(), {"frequency_ratio", "force_ratio", "limit_force_ratio",

@@ -9,7 +9,7 @@
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"
-#include "study/verdict.hpp"
+#include "replication/verdict.hpp"
 #include "tmcmc/parallel.hpp"
 
 using namespace experiments;
@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
       auto sorted = areas[p];
       std::sort(sorted.begin(), sorted.end());
       for (std::size_t q = 0; q < quantiles.size(); ++q) {
-        quantiles[q][p] = study::sample_quantile(sorted, probabilities[q]);
+        quantiles[q][p] = replication::sample_quantile(sorted, probabilities[q]);
       }
       program.report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], quantiles[0][p],
                      quantiles[1][p], quantiles[2][p]);

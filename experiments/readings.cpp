@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "study/synthetic.hpp"
+#include "replication/synthetic.hpp"
 
 using namespace experiments;
 
@@ -17,15 +17,15 @@ namespace {
 
 struct Variant {
   std::string name;
-  study::Reading reading;
+  replication::Reading reading;
   bool random_ratios = false;
 };
 
 std::vector<Variant> variants(tmcmc::Index samples) {
-  const study::Reading base = study::reading(study::ReadingName::as_published);
+  const replication::Reading base = replication::reading(replication::ReadingName::as_published);
   std::vector<Variant> list;
-  for (const auto& name : study::reading_names()) {
-    list.push_back({name, study::reading(study::parse_reading(name))});
+  for (const auto& name : replication::reading_names()) {
+    list.push_back({name, replication::reading(replication::parse_reading(name))});
   }
   const auto add = [&](const std::string& name, auto change) {
     Variant v{name, base};
@@ -64,7 +64,7 @@ friction::Observations with_random_ratios(friction::Observations o, std::uint64_
   return o;
 }
 
-double share(const std::vector<study::StudySummary>& studies, std::int64_t low, std::int64_t high) {
+double share(const std::vector<replication::StudySummary>& studies, std::int64_t low, std::int64_t high) {
   double count = 0.0;
   double total = 0.0;
   for (const auto& s : studies) {
@@ -76,26 +76,26 @@ double share(const std::vector<study::StudySummary>& studies, std::int64_t low, 
   return count / total;
 }
 
-double mean_of(const std::vector<study::StudySummary>& studies, auto member) {
+double mean_of(const std::vector<replication::StudySummary>& studies, auto member) {
   std::vector<double> values;
   for (const auto& s : studies) {
     values.push_back(member(s));
   }
-  return study::moments(values).mean;
+  return replication::moments(values).mean;
 }
 
 struct Spread {
   double median;
-  study::Interval95 interval;
+  replication::Interval95 interval;
 };
 
-Spread spread_of_areas(const std::vector<study::StudySummary>& studies, std::size_t parameter) {
+Spread spread_of_areas(const std::vector<replication::StudySummary>& studies, std::size_t parameter) {
   std::vector<double> areas;
   for (const auto& s : studies) {
     areas.push_back(s.areas[parameter]);
   }
   std::sort(areas.begin(), areas.end());
-  return {study::sample_quantile(areas, 0.5), study::central_95(areas)};
+  return {replication::sample_quantile(areas, 0.5), replication::central_95(areas)};
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
       throw std::invalid_argument(fmt::format("--only: value '{}': expected the name of a reading", only));
     }
     for (const auto& column : printed.counts) {
-      const auto arms = study::paper_arms(list.front().reading);
+      const auto arms = replication::paper_arms(list.front().reading);
       if (std::none_of(arms.begin(), arms.end(),
                        [&](const auto& arm) { return arm.name == column.sampler; })) {
         throw io::InputError(fmt::format("{}: column '{}': expected the samplers that are run here", table4,
@@ -158,27 +158,28 @@ int main(int argc, char** argv) {
     io::Progress progress("readings", list.size() * static_cast<std::size_t>(studies), !program.quiet());
     for (const Variant& variant : list) {
       const auto prior = prior_for(inputs, variant.reading);
-      const auto arms = study::paper_arms(variant.reading);
-      std::vector<study::StudySummary> summaries;
+      const auto arms = replication::paper_arms(variant.reading);
+      std::vector<replication::StudySummary> summaries;
       for (long k = 0; k < studies; ++k) {
         options.study = static_cast<std::uint32_t>(k);
         const auto data = variant.random_ratios
                               ? with_random_ratios(observations, options.seed, options.study)
                               : observations;
-        const auto study = study::run_study(study::problem(variant.reading, data, prior), arms, options);
+        const auto study =
+            replication::run_study(replication::problem(variant.reading, data, prior), arms, options);
         summaries.insert(summaries.end(), study.begin(), study.end());
         progress.advance();
       }
       const auto exact =
           exact_posterior_for(inputs, friction::Likelihood(observations, variant.reading.physics), prior);
       // Under each reading both samplers are one algorithm (N_eff of 500 or 500.25): the studies of both are one null.
-      const auto null = study::Null::all_studies;
+      const auto null = replication::Null::all_studies;
       const auto verdicts =
-          study::judge_tables(summaries, printed.areas, printed.counts, null, table_options.draws);
+          replication::judge_tables(summaries, printed.areas, printed.counts, null, table_options.draws);
       const double log_likelihood =
-          study::log_likelihood_of_tables(summaries, printed.areas, printed.counts, null);
+          replication::log_likelihood_of_tables(summaries, printed.areas, printed.counts, null);
       for (std::size_t a = 0; a < arms.size(); ++a) {
-        const auto of_arm = study::studies_of(summaries, arms[a].name);
+        const auto of_arm = replication::studies_of(summaries, arms[a].name);
         const Spread force = spread_of_areas(of_arm, friction::friction_force);
         const Spread frequency = spread_of_areas(of_arm, friction::natural_frequency);
         const double force_p = verdicts.areas[a].p.value;

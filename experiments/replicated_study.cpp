@@ -14,7 +14,7 @@
 #include "inputs.hpp"
 #include "io/journal.hpp"
 #include "io/signals.hpp"
-#include "study/replication.hpp"
+#include "replication/replication.hpp"
 
 using namespace experiments;
 
@@ -30,7 +30,7 @@ std::string header() {
   return text + ",log_evidence_mean,log_evidence_sd,iterations";
 }
 
-std::string row(const study::StudySummary& s) {
+std::string row(const replication::StudySummary& s) {
   std::string text = fmt::format("{},{}", s.study, s.sampler);
   for (const auto* values : {&s.areas, &s.means, &s.standard_errors, &s.smallest, &s.largest}) {
     for (const double value : *values) {
@@ -38,12 +38,13 @@ std::string row(const study::StudySummary& s) {
     }
   }
   return text + fmt::format(",{},{},{}", io::format_number(s.log_evidence_mean),
-                            io::format_number(s.log_evidence_sd), study::format_iterations(s.iterations));
+                            io::format_number(s.log_evidence_sd),
+                            replication::format_iterations(s.iterations));
 }
 
 /// Everything that the rows depend on, in one line.
-std::string key(const study::Reading& reading, const std::vector<study::Arm>& arms,
-                const study::StudyOptions& options, long first_study, const friction::Observations& o,
+std::string key(const replication::Reading& reading, const std::vector<replication::Arm>& arms,
+                const replication::StudyOptions& options, long first_study, const friction::Observations& o,
                 const tmcmc::BoxPrior& prior) {
   std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", COMPANION_VERSION,
                                  first_study, options.runs, options.seed);
@@ -72,7 +73,7 @@ std::vector<std::string> parts(const std::string& text, char separator) {
 }
 
 void report_column(const Program& program, const std::vector<std::string>& rows, std::size_t column,
-                   const std::string& name, const std::vector<study::Arm>& arms) {
+                   const std::string& name, const std::vector<replication::Arm>& arms) {
   for (const auto& arm : arms) {
     std::vector<double> values;
     for (const auto& text : rows) {
@@ -118,19 +119,19 @@ int main(int argc, char** argv) {
   physics.add_to(program);
 
   return program.run(argc, argv, [&] {
-    study::Reading reading = physics.reading();
+    replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
-    const auto problem = study::problem(reading, observations, prior);
-    const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
+    const auto problem = replication::problem(reading, observations, prior);
+    const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
 
     const auto one_study = [&](const std::string& number) {
       auto of_study = options;
       of_study.study = static_cast<std::uint32_t>(std::stoul(number));
       std::vector<std::string> of_samplers;
-      for (const auto& summary : study::run_study(problem, arms, of_study)) {
+      for (const auto& summary : replication::run_study(problem, arms, of_study)) {
         of_samplers.push_back(row(summary));
       }
       return fmt::format("{}", fmt::join(of_samplers, "\n"));

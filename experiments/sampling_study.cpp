@@ -14,7 +14,7 @@ using namespace experiments;
 namespace {
 
 /// What the runs say of themselves (--diagnose).
-void report_diagnostics(const Program& program, const std::vector<study::Run>& runs) {
+void report_diagnostics(const Program& program, const std::vector<replication::Run>& runs) {
   std::vector<double> evidence;
   double squared_errors = 0.0;
   double smallest_size = std::numeric_limits<double>::infinity();
@@ -32,7 +32,7 @@ void report_diagnostics(const Program& program, const std::vector<study::Run>& r
       ++warned[kind];
     }
   }
-  const auto moments = study::moments(evidence);
+  const auto moments = replication::moments(evidence);
   program.report("  bridge log-evidence {:.3f} (sd over runs {:.3f}), standard error of a run {:.3f}\n",
                  moments.mean, moments.standard_deviation,
                  std::sqrt(squared_errors / static_cast<double>(runs.size())));
@@ -44,16 +44,16 @@ void report_diagnostics(const Program& program, const std::vector<study::Run>& r
   program.report("{}\n", warned.empty() ? "  none" : "");
 }
 
-void report_arm(const Program& program, const study::Arm& arm, const std::vector<study::Run>& runs,
-                int threads) {
-  const Eigen::VectorXd areas = study::pbox_areas(runs, threads);
+void report_arm(const Program& program, const replication::Arm& arm,
+                const std::vector<replication::Run>& runs, int threads) {
+  const Eigen::VectorXd areas = replication::pbox_areas(runs, threads);
   std::vector<double> evidence;
   tmcmc::Index evaluations = 0;
   for (const auto& run : runs) {
     evidence.push_back(run.result.final.log_evidence);
     evaluations += run.result.final.evaluations;
   }
-  const auto log_evidence = study::moments(evidence);
+  const auto log_evidence = replication::moments(evidence);
   program.report("\n{}: log-evidence {:.3f} (sd over runs {:.3f}), {:.0f} likelihood evaluations a run\n",
                  arm.name, log_evidence.mean, log_evidence.standard_deviation,
                  static_cast<double>(evaluations) / static_cast<double>(runs.size()));
@@ -66,12 +66,12 @@ void report_arm(const Program& program, const study::Arm& arm, const std::vector
       means.push_back(run.mean[column]);
       sds.push_back(run.standard_deviation[column]);
     }
-    const auto m = study::moments(means);
+    const auto m = replication::moments(means);
     program.report("  {:<22} {:>12.5f} {:>12.5f} {:>14.5f} {:>14.6f}\n", parameter_columns[j], m.mean,
-                   m.standard_deviation, study::moments(sds).mean, areas[column]);
+                   m.standard_deviation, replication::moments(sds).mean, areas[column]);
   }
   program.report("  iterations:");
-  for (const auto& [iterations, count] : study::iteration_counts(runs)) {
+  for (const auto& [iterations, count] : replication::iteration_counts(runs)) {
     program.report("  {} in {} runs", iterations, count);
   }
   program.report("\n");
@@ -103,11 +103,11 @@ int main(int argc, char** argv) {
   physics.add_to(program);
 
   return program.run(argc, argv, [&] {
-    study::Reading reading = physics.reading();
+    replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
-    const auto problem = study::problem(reading, observations, prior_for(inputs, reading));
-    const auto arms = study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
+    const auto problem = replication::problem(reading, observations, prior_for(inputs, reading));
+    const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
 
     std::vector<std::string> sample_columns = {"sampler", "run"};
@@ -144,9 +144,9 @@ int main(int argc, char** argv) {
                    reading.sampler.samples, options.seed, physics.reading_name, observations.size());
     io::Progress progress("sampling_study", arms.size() * static_cast<std::size_t>(options.runs),
                           !program.quiet());
-    std::vector<std::vector<study::Run>> results;
+    std::vector<std::vector<replication::Run>> results;
     for (std::uint32_t a = 0; a < arms.size(); ++a) {
-      results.push_back(study::run_arm(problem, arms[a], a, options, [&] { progress.advance(); }));
+      results.push_back(replication::run_arm(problem, arms[a], a, options, [&] { progress.advance(); }));
     }
     for (std::size_t a = 0; a < arms.size(); ++a) {
       for (std::size_t i = 0; i < results[a].size(); ++i) {

@@ -14,7 +14,7 @@
 #include <csignal>
 
 #include "inputs.hpp"
-#include "study/synthetic.hpp"
+#include "replication/synthetic.hpp"
 
 using namespace experiments;
 
@@ -39,18 +39,19 @@ struct Measurement {
 friction::Observations synthetic_observations(long count) {
   std::vector<double> ratios;
   for (long i = 0; i < count; ++i) {
-    ratios.push_back(study::nominal_ratios()[static_cast<std::size_t>(i) % study::nominal_ratios().size()]);
+    ratios.push_back(
+        replication::nominal_ratios()[static_cast<std::size_t>(i) % replication::nominal_ratios().size()]);
   }
-  return study::generate_observations({}, ratios, {}, 1);
+  return replication::generate_observations({}, ratios, {}, 1);
 }
 
 /// Repeats the work for a tenth of a second, at least once; the shortest time counts.
 Measurement work_on(const Setting& s) {
   using Clock = std::chrono::steady_clock;
-  const auto reading = study::reading(study::ReadingName::as_published);
+  const auto reading = replication::reading(replication::ReadingName::as_published);
   const auto problem =
-      study::problem(reading, synthetic_observations(s.observations), prior_for({}, reading));
-  auto arms = study::paper_arms(reading);
+      replication::problem(reading, synthetic_observations(s.observations), prior_for({}, reading));
+  auto arms = replication::paper_arms(reading);
   for (auto& arm : arms) {
     arm.options.samples = s.samples;
     arm.options.threads = s.runs == 1 ? s.threads : 1;
@@ -66,10 +67,10 @@ Measurement work_on(const Setting& s) {
     if (s.runs == 1) {
       count(tmcmc::run(problem, arms[0].options, {.seed = 1}));
     } else {
-      const study::StudyOptions options{.runs = s.runs / std::ssize(arms), .threads = s.threads};
+      const replication::StudyOptions options{.runs = s.runs / std::ssize(arms), .threads = s.threads};
       for (std::uint32_t a = 0; a < arms.size(); ++a) {
-        const auto runs = study::run_arm(problem, arms[a], a, options);
-        static_cast<void>(study::pbox_areas(runs, options.threads));
+        const auto runs = replication::run_arm(problem, arms[a], a, options);
+        static_cast<void>(replication::pbox_areas(runs, options.threads));
         for (const auto& run : runs) {
           count(run.result);
         }

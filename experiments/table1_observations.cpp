@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "study/audit.hpp"
+#include "replication/audit.hpp"
 
 using namespace experiments;
 
 namespace {
 
-void report_rows(const Program& program, const study::Audit& a, const study::Truth& truth,
+void report_rows(const Program& program, const replication::Audit& a, const replication::Truth& truth,
                  double alternative) {
   program.report("{:>5} {:>20} {:>18} {:>18} {:>18}\n", "row", "omega_b - r omega_n", "(r-r_nom)/sigma",
                  fmt::format("phase z, {} N", truth.friction_force_n),
@@ -27,8 +27,8 @@ void report_rows(const Program& program, const study::Audit& a, const study::Tru
 }
 
 void report_parameter(const Program& program, const char* name, const char* unit,
-                      const study::ParameterAudit& a) {
-  const auto interval = [&](const study::ConfidenceInterval& i) {
+                      const replication::ParameterAudit& a) {
+  const auto interval = [&](const replication::ConfidenceInterval& i) {
     return fmt::format("[{:.5g}, {:.5g}]{}", i.lower, i.upper,
                        i.lower_at_bound || i.upper_at_bound ? " up to a bound" : "");
   };
@@ -51,7 +51,7 @@ void report_parameter(const Program& program, const char* name, const char* unit
 
 /// One row a value: the least-squares estimate with its intervals, and each value that was tested.
 void write_parameter(io::CsvWriter& csv, const std::string& parameter,
-                     const std::vector<std::string>& hypotheses, const study::ParameterAudit& a) {
+                     const std::vector<std::string>& hypotheses, const replication::ParameterAudit& a) {
   csv.row(parameter, "least squares", digits(a.estimate, 8), a.noise_stated, digits(a.noise_unbiased, 8),
           digits(a.chi_squared, 8), digits(a.chi_squared_p, 4), 0, "nan", 0, "nan",
           digits(a.noise_known_95.lower, 8), digits(a.noise_known_95.upper, 8),
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
-  study::Truth truth;
+  replication::Truth truth;
   double alternative = 1.0;
   std::string audit_output, summary_output;
   program.add_output("CSV of generated observations, in the columns of table1_observations.csv");
@@ -102,8 +102,8 @@ int main(int argc, char** argv) {
                       audit_output.empty() ? "--audit-summary-output" : "--audit-output"));
     }
     const auto printed = read_observations(inputs.observations);
-    const auto generated =
-        study::generate_observations(truth, study::nominal_ratios(), reading.physics, run_options.seed);
+    const auto generated = replication::generate_observations(truth, replication::nominal_ratios(),
+                                                              reading.physics, run_options.seed);
     auto csv =
         open_csv(program.output(), {"index", "r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});
     auto rows = open_csv(audit_output, {"index", "driving_frequency_difference_hz", "ratio_residual",
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
                generated.driving_frequency_hz[i], generated.phase_deg[i]);
     }
     if (audited) {
-      const auto a = study::audit(printed, truth, alternative, reading.physics);
+      const auto a = replication::audit(printed, truth, alternative, reading.physics);
       program.report("Audit of {} (reading {}): truth {} N, {} Hz; noise {} deg, {}\n", inputs.observations,
                      physics.reading_name, truth.friction_force_n, truth.natural_frequency_hz,
                      truth.phase_noise_deg, truth.frequency_ratio_noise);

@@ -34,15 +34,16 @@ int main(int argc, char** argv) {
         std::vector<double> means, variances;
         double count = 0.0;
         for (const auto& run : samples.values[s][c]) {
-          const auto m = study::moments(run);
+          const auto m = replication::moments(run);
           means.push_back(m.mean);
           variances.push_back(m.standard_deviation * m.standard_deviation);
           count += static_cast<double>(run.size());
         }
         count /= static_cast<double>(means.size());
-        const auto m = study::moments(means);
+        const auto m = replication::moments(means);
         // The variance of the pooled posterior: within the runs and between them.
-        const double variance = study::moments(variances).mean + m.standard_deviation * m.standard_deviation;
+        const double variance =
+            replication::moments(variances).mean + m.standard_deviation * m.standard_deviation;
         const double independent = std::sqrt(variance / count);
         const double effective = variance / (m.standard_deviation * m.standard_deviation);
         program.report("{:<12} {:<24} {:>10.5f} {:>15.6f} {:>13.5f} {:>17.6f} {:>14.1f}\n",

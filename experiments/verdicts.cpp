@@ -9,14 +9,14 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "inputs.hpp"
-#include "study/audit.hpp"
+#include "replication/audit.hpp"
 
 using namespace experiments;
-using study::Verdict;
+using replication::Verdict;
 
 namespace {
 
-const study::Truth stated;                   // Section 3 of the paper
+const replication::Truth stated;             // Section 3 of the paper
 constexpr double alternative_force_n = 1.0;  // a test beside that of the stated force, not reported here
 
 struct Judged {
@@ -26,13 +26,14 @@ struct Judged {
 };
 
 void write_contrast(io::CsvWriter& csv, const char* quantity, const char* statistic,
-                    const study::ContrastVerdict& c) {
+                    const replication::ContrastVerdict& c) {
   csv.row(quantity, statistic, c.printed, c.interval.low, c.interval.high, c.p.value, c.p.standard_error,
           c.replicated.ratio, c.replicated.interval.low, c.replicated.interval.high, c.replicated.margin);
 }
 
-Judged judge_contrast(const study::ContrastVerdict& c, const char* what) {
-  return {study::name_of(study::judge_number(c.p)), study::judge_contrast(c.p, c.replicated),
+Judged judge_contrast(const replication::ContrastVerdict& c, const char* what) {
+  return {replication::name_of(replication::judge_number(c.p)),
+          replication::judge_contrast(c.p, c.replicated),
           fmt::format(
               "printed {} {:.3g}, null 95 % {:.3g} to {:.3g}, p = {:.2g} (standard error {:.1g}); replicated "
               "ratio of medians {:.3f} ({:.3f} to {:.3f})",
@@ -41,7 +42,7 @@ Judged judge_contrast(const study::ContrastVerdict& c, const char* what) {
 }
 
 /// C1: the share of studies whose p-boxes hold both stated values, and how likely the posterior makes the stated force.
-Judged judge_enclosure(const std::vector<study::StudySummary>& studies, double exceedance) {
+Judged judge_enclosure(const std::vector<replication::StudySummary>& studies, double exceedance) {
   double enclosing = 0.0;
   for (const auto& s : studies) {
     const bool force = s.smallest[0] <= stated.friction_force_n && s.largest[0] >= stated.friction_force_n;
@@ -59,10 +60,10 @@ Judged judge_enclosure(const std::vector<study::StudySummary>& studies, double e
 }
 
 /// C7: the likelihood-ratio test of the stated force, with the stated noise.
-Judged judge_stated_force(const study::Audit& audit, std::size_t observations) {
+Judged judge_stated_force(const replication::Audit& audit, std::size_t observations) {
   const auto& fit = audit.friction_force;
   const auto& test = fit.tests.front();
-  const double critical = quantile(boost::math::chi_squared(1.0), 1.0 - study::significance_level);
+  const double critical = quantile(boost::math::chi_squared(1.0), 1.0 - replication::significance_level);
   // NaN, where the motion would not be continuous, is no agreement either
   return {
       "not applicable", test.likelihood_ratio < critical ? Verdict::reproduced : Verdict::contradicted,
@@ -78,7 +79,7 @@ std::string markdown_cell(const std::string& text) {
 }
 
 /// C6: does the most frequent number of iterations in Table 4 agree with the text?
-Judged judge_mode(const std::vector<study::PrintedCounts>& printed) {
+Judged judge_mode(const std::vector<replication::PrintedCounts>& printed) {
   std::string evidence = "Table 4: most runs take";
   bool eleven = true;
   for (const auto& column : printed) {
@@ -165,12 +166,12 @@ int main(int argc, char** argv) {
     const auto ratio = [&](std::size_t parameter) {
       return area(second, parameter) / area(first, parameter);
     };
-    const auto force = study::contrast_areas(studies, first, second, 0, ratio(0), run_options.seed);
-    const auto frequency = study::contrast_areas(studies, first, second, 1, ratio(1), run_options.seed);
+    const auto force = replication::contrast_areas(studies, first, second, 0, ratio(0), run_options.seed);
+    const auto frequency = replication::contrast_areas(studies, first, second, 1, ratio(1), run_options.seed);
     const auto iterations =
-        study::contrast_iterations(studies, printed.counts[0].counts, printed.counts[1].counts, first, second,
-                                   run_options.seed, table_options.draws);
-    const auto audit = study::audit(observations, stated, alternative_force_n, reading.physics);
+        replication::contrast_iterations(studies, printed.counts[0].counts, printed.counts[1].counts, first,
+                                         second, run_options.seed, table_options.draws);
+    const auto audit = replication::audit(observations, stated, alternative_force_n, reading.physics);
 
     const friction::Likelihood likelihood(observations, reading.physics);
     const auto exact = exact_posterior_for(inputs, likelihood, prior);
@@ -197,8 +198,8 @@ int main(int argc, char** argv) {
                     "replicated medians, second sampler over first: F_mu area {:.3f}, omega_n area {:.3f}, "
                     "iterations {:.4f}; equivalent within {:.0f} %, {:.0f} % and {:.0f} %: {}",
                     force.replicated.ratio, frequency.replicated.ratio, iterations.replicated.ratio,
-                    100.0 * study::area_margin, 100.0 * study::area_margin, 100.0 * study::iteration_margin,
-                    one_algorithm ? "yes" : "no")};
+                    100.0 * replication::area_margin, 100.0 * replication::area_margin,
+                    100.0 * replication::iteration_margin, one_algorithm ? "yes" : "no")};
       }
       if (id == "C6") {
         return judge_mode(printed.counts);

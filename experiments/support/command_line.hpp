@@ -17,9 +17,9 @@
 #include "io/csv.hpp"
 #include "io/progress.hpp"
 #include "option_checks.hpp"
-#include "study/deviance_test.hpp"
-#include "study/reading.hpp"
-#include "study/study.hpp"
+#include "replication/deviance_test.hpp"
+#include "replication/reading.hpp"
+#include "replication/study.hpp"
 
 namespace CLI {
 class
@@ -129,7 +129,7 @@ struct PhysicsOptions {
   /// --driving-force alone.
   void add_driving_force_to(Program& program);
   /// The reading with the options applied.
-  [[nodiscard]] study::Reading reading() const;
+  [[nodiscard]] replication::Reading reading() const;
 };
 
 /// The sampler behind --reading, option by option; or the recommended one, with the same options.
@@ -145,14 +145,14 @@ struct SamplerOptions {
 
   void add_to(Program& program);
   /// Replaces the sampler of the reading as the options say. Kind and target of the criterion, which belong to the two
-  /// samplers that are compared, are not touched (study::paper_arms).
+  /// samplers that are compared, are not touched (replication::paper_arms).
   /// \throws std::invalid_argument naming the option, for values that do not go together.
-  void apply(study::Reading& reading) const;
+  void apply(replication::Reading& reading) const;
 };
 
 /// --tables.
 struct TableOptions {
-  study::TableDraws draws;
+  replication::TableDraws draws;
 
   void add_to(Program& program);
 };
@@ -166,7 +166,7 @@ struct RunOptions {
   void add_to(Program& program, long least_runs = 1);
   void add_seed_to(Program& program);
   void add_threads_to(Program& program);
-  [[nodiscard]] study::StudyOptions study_options() const;
+  [[nodiscard]] replication::StudyOptions study_options() const;
 };
 
 }  // namespace experiments

@@ -175,7 +175,7 @@ tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::strin
   return {low, high};
 }
 
-tmcmc::BoxPrior prior_for(const InputFiles& inputs, const study::Reading& reading) {
+tmcmc::BoxPrior prior_for(const InputFiles& inputs, const replication::Reading& reading) {
   if (!inputs.prior.empty()) {
     return read_prior(inputs.prior);
   }

@@ -10,7 +10,7 @@
 #include "command_line.hpp"
 #include "estimation/exact_posterior.hpp"
 #include "friction/observations.hpp"
-#include "study/published.hpp"
+#include "replication/published.hpp"
 #include "tmcmc/prior.hpp"
 
 namespace experiments {
@@ -91,7 +91,7 @@ void require_runs_once(const io::CsvTable& table);
 [[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::string>& names);
 
 /// The prior that the options ask for: a file of the user's as it stands; else Table 2 as the reading has it.
-[[nodiscard]] tmcmc::BoxPrior prior_for(const InputFiles& inputs, const study::Reading& reading);
+[[nodiscard]] tmcmc::BoxPrior prior_for(const InputFiles& inputs, const replication::Reading& reading);
 
 [[nodiscard]] estimation::ParameterBounds bounds_of(const tmcmc::BoxPrior& prior);
 
@@ -118,12 +118,12 @@ struct GroupedColumns {
 
 /// Studies as replicated_study writes them: each study once with each sampler.
 /// \throws io::InputError naming file, line, column and value.
-[[nodiscard]] std::vector<study::StudySummary> read_studies(const std::string& path);
+[[nodiscard]] std::vector<replication::StudySummary> read_studies(const std::string& path);
 
 /// Tables 3 and 4 as printed, from the directory of printed tables.
 struct PrintedTables {
-  std::vector<study::PrintedArea> areas;  ///< friction force and natural frequency of each sampler
-  std::vector<study::PrintedCounts> counts;
+  std::vector<replication::PrintedArea> areas;  ///< friction force and natural frequency of each sampler
+  std::vector<replication::PrintedCounts> counts;
   std::string counts_path;
 };
 /// Both tables have to name the same samplers.
@@ -132,13 +132,13 @@ struct PrintedTables {
 
 /// The same, with studies of every printed sampler.
 /// \throws io::InputError naming file, line, column and value.
-[[nodiscard]] std::vector<study::StudySummary> read_studies(const std::string& path,
-                                                            const PrintedTables& printed);
+[[nodiscard]] std::vector<replication::StudySummary> read_studies(const std::string& path,
+                                                                  const PrintedTables& printed);
 
 /// The null distribution for the two printed samplers: both samplers' studies if they are equivalent. The bootstrap behind
 /// that has a fixed seed of its own.
 /// \throws io::InputError unless two samplers were printed.
-[[nodiscard]] study::Null null_of(const std::vector<study::StudySummary>& studies,
-                                  const PrintedTables& printed);
+[[nodiscard]] replication::Null null_of(const std::vector<replication::StudySummary>& studies,
+                                        const PrintedTables& printed);
 
 }  // namespace experiments

@@ -103,7 +103,7 @@ void SamplerOptions::add_to(Program& program) {
                    group);
 }
 
-void SamplerOptions::apply(study::Reading& reading) const {
+void SamplerOptions::apply(replication::Reading& reading) const {
   tmcmc::Options& o = reading.sampler;
   try {
     if (sampler == "recommended") {

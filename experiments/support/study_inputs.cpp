@@ -92,7 +92,7 @@ GroupedColumns read_samples(const io::CsvTable& table) {
   return result;
 }
 
-std::vector<study::StudySummary> read_studies(const std::string& path) {
+std::vector<replication::StudySummary> read_studies(const std::string& path) {
   const auto table = io::CsvTable::read(path);
   const auto numbers = checked(
       table, "study", table.integers("study"), [](long n) { return n >= 0 && n <= largest_study; },
@@ -102,7 +102,7 @@ std::vector<study::StudySummary> read_studies(const std::string& path) {
   const auto iterations = table.text("iterations");
   const auto evidence_mean = table.numbers("log_evidence_mean");
   const auto evidence_sd = nonnegative_numbers(table, "log_evidence_sd");
-  std::vector<study::StudySummary> studies(table.rows());
+  std::vector<replication::StudySummary> studies(table.rows());
   for (std::size_t row = 0; row < studies.size(); ++row) {
     auto& s = studies[row];
     s.study = static_cast<std::uint32_t>(numbers[row]);
@@ -110,7 +110,7 @@ std::vector<study::StudySummary> read_studies(const std::string& path) {
     s.log_evidence_mean = evidence_mean[row];
     s.log_evidence_sd = evidence_sd[row];
     try {
-      s.iterations = study::parse_iterations(iterations[row]);
+      s.iterations = replication::parse_iterations(iterations[row]);
     } catch (const std::invalid_argument& error) {
       table.fail(row, "iterations", expectation(error.what()));
     }
@@ -118,7 +118,7 @@ std::vector<study::StudySummary> read_studies(const std::string& path) {
   const auto any_numbers = [](const io::CsvTable& from, std::string_view column) {
     return from.numbers(column);
   };
-  const auto fill = [&](const std::string& prefix, std::vector<double> study::StudySummary::*member,
+  const auto fill = [&](const std::string& prefix, std::vector<double> replication::StudySummary::*member,
                         auto read) {
     for (const auto& name : parameter_columns) {
       const auto values = read(table, prefix + name);
@@ -127,11 +127,11 @@ std::vector<study::StudySummary> read_studies(const std::string& path) {
       }
     }
   };
-  fill("area_", &study::StudySummary::areas, positive_numbers);
-  fill("mean_", &study::StudySummary::means, any_numbers);
-  fill("standard_error_", &study::StudySummary::standard_errors, nonnegative_numbers);
-  fill("smallest_", &study::StudySummary::smallest, any_numbers);
-  fill("largest_", &study::StudySummary::largest, any_numbers);
+  fill("area_", &replication::StudySummary::areas, positive_numbers);
+  fill("mean_", &replication::StudySummary::means, any_numbers);
+  fill("standard_error_", &replication::StudySummary::standard_errors, nonnegative_numbers);
+  fill("smallest_", &replication::StudySummary::smallest, any_numbers);
+  fill("largest_", &replication::StudySummary::largest, any_numbers);
   return studies;
 }
 
@@ -173,7 +173,7 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
     if (std::all_of(runs.begin(), runs.end(), [](long n) { return n == 0; })) {
       counts.fail(0, sampler, "at least one run in the column");
     }
-    study::PrintedCounts column{sampler, {}};
+    replication::PrintedCounts column{sampler, {}};
     for (std::size_t row = 0; row < runs.size(); ++row) {
       column.counts[iterations[row]] = runs[row];
     }
@@ -182,7 +182,7 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
   return printed;
 }
 
-std::vector<study::StudySummary> read_studies(const std::string& path, const PrintedTables& printed) {
+std::vector<replication::StudySummary> read_studies(const std::string& path, const PrintedTables& printed) {
   auto studies = read_studies(path);
   for (const auto& column : printed.counts) {
     const auto count = std::count_if(studies.begin(), studies.end(),
@@ -200,12 +200,13 @@ std::vector<study::StudySummary> read_studies(const std::string& path, const Pri
   return studies;
 }
 
-study::Null null_of(const std::vector<study::StudySummary>& studies, const PrintedTables& printed) {
+replication::Null null_of(const std::vector<replication::StudySummary>& studies,
+                          const PrintedTables& printed) {
   if (printed.counts.size() != 2) {
     throw io::InputError(fmt::format("{}: {} columns of counts: expected those of two samplers",
                                      printed.counts_path, printed.counts.size()));
   }
-  return study::null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
+  return replication::null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
 }
 
 }  // namespace experiments

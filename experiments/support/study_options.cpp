@@ -12,7 +12,7 @@ const std::vector<std::string> phase_names = {"discrete-bin", "fourier-coefficie
 }  // namespace
 
 void PhysicsOptions::add_to(Program& program) {
-  program.add_choice("--reading", reading_name, study::reading_names(),
+  program.add_choice("--reading", reading_name, replication::reading_names(),
                      "Set of options: how text, published scripts and mathematics are read");
   add_driving_force_to(program);
   program.add_choice("--limit", limit, limit_names, "S in the limit of continuous motion (Eq. 18)");
@@ -27,8 +27,8 @@ void PhysicsOptions::add_driving_force_to(Program& program) {
   program.add_number("--driving-force", driving_force_n, positive(), "k Y_b, N");
 }
 
-study::Reading PhysicsOptions::reading() const {
-  study::Reading r = study::reading(study::parse_reading(reading_name));
+replication::Reading PhysicsOptions::reading() const {
+  replication::Reading r = replication::reading(replication::parse_reading(reading_name));
   choose(limit, limit_names, r.physics.limit);
   choose(phase, phase_names, r.physics.phase);
   r.infeasible_log_likelihood = infeasible_log_likelihood.value_or(r.infeasible_log_likelihood);
@@ -56,8 +56,8 @@ void RunOptions::add_threads_to(Program& program) {
                      "Threads; 0: as many as the machine has. Results do not depend on it");
 }
 
-study::StudyOptions RunOptions::study_options() const {
-  study::StudyOptions options;
+replication::StudyOptions RunOptions::study_options() const {
+  replication::StudyOptions options;
   options.runs = runs;
   options.seed = seed;
   options.threads = threads == 0 ? omp_get_max_threads() : threads;

@@ -7,8 +7,8 @@
 #include <optional>
 #include <sstream>
 
+#include "replication/verdict.hpp"
 #include "report/format.hpp"
-#include "study/verdict.hpp"
 
 namespace report {
 namespace {
@@ -120,9 +120,9 @@ std::optional<double> statistic(const std::string& name, std::vector<double> num
   std::sort(numbers.begin(), numbers.end());
   if (name == "min") return numbers.front();
   if (name == "max") return numbers.back();
-  if (name == "median") return study::sample_quantile(numbers, 0.5);
-  if (name == "q025") return study::sample_quantile(numbers, 0.025);
-  if (name == "q975") return study::sample_quantile(numbers, 0.975);
+  if (name == "median") return replication::sample_quantile(numbers, 0.5);
+  if (name == "q025") return replication::sample_quantile(numbers, 0.025);
+  if (name == "q975") return replication::sample_quantile(numbers, 0.975);
   return std::nullopt;
 }
 

@@ -29,11 +29,11 @@ int run(std::vector<std::string>& words) {
   sampler.add_to(program);
   physics.add_to(program);
   return program.run(static_cast<int>(words.size()), argv.data(), [&] {
-    study::Reading reading = physics.reading();
+    replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto options = run_options.study_options();
     require(options.runs >= 1 && options.threads >= 1, "accepted options are in their range", "");
-    for (const auto& arm : study::paper_arms(reading, sampler.cov_target, sampler.ess_fraction)) {
+    for (const auto& arm : replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction)) {
       arm.options.validate();
     }
   });

@@ -1,0 +1,50 @@
+/// \file
+/// The accuracy of a sampler over many runs, against a posterior that is known.
+#pragma once
+
+#include <vector>
+
+#include "replication/study.hpp"
+
+namespace replication {
+
+/// What is known of a posterior.
+struct KnownPosterior {
+  Eigen::VectorXd mean;                ///< one entry a parameter
+  Eigen::VectorXd standard_deviation;  ///< one entry a parameter, positive
+  double log_evidence = 0.0;           ///< log P(D)
+};
+
+/// Errors over the runs. Those of means are in posterior standard deviations.
+struct Accuracy {
+  double evaluations = 0.0;           ///< log-likelihoods, mean over the runs
+  tmcmc::Index most_evaluations = 0;  ///< largest over the runs
+  double stages = 0.0;                ///< mean over the runs
+  Eigen::VectorXd mean_bias;          ///< mean over the runs of (mean of a run - truth)
+  Eigen::VectorXd mean_spread;        ///< standard deviation over the runs of the mean of a run
+  Eigen::VectorXd effective_size;     ///< independent draws that would err as much: 1 / (bias^2 + spread^2)
+  /// Of the estimate that the options give: the bridge estimate with Options::diagnose, else the sum of log-mean weights.
+  double evidence_bias = 0.0;
+  double evidence_rms = 0.0;         ///< root-mean-square error of the log-evidence
+  double weight_evidence_rms = 0.0;  ///< the same for the sum of log-mean weights
+  double standard_error_rms =
+      0.0;              ///< root-mean-square of the runs' own standard errors; NaN without diagnose
+  double warned = 0.0;  ///< fraction of the runs with a warning
+};
+
+/// \throws std::invalid_argument unless there are two runs or more, of as many parameters as are known.
+[[nodiscard]] Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth);
+
+/// A sampler of the comparison: what it varies against the published setting, and how far.
+struct Configuration {
+  std::string family;      ///< what is varied
+  std::string value;       ///< to what
+  tmcmc::Options options;  ///< complete options of the sampler
+};
+
+/// The settings that the comparison of cost and accuracy runs through: one change at a time to `published`, then changes
+/// of the moves added up, then the recommended options for several budgets. All with Options::diagnose.
+/// \param published  the sampler of the paper (N = 1000, N_eff = N/2, 3 steps)
+[[nodiscard]] std::vector<Configuration> configurations(const tmcmc::Options& published);
+
+}  // namespace replication

@@ -1,0 +1,67 @@
+/// \file
+/// Audit of a table of measurements: does it agree with the truth and the noise levels stated for it?
+#pragma once
+
+#include <vector>
+
+#include "replication/synthetic.hpp"
+
+namespace replication {
+
+/// One value x of the friction force (N) or the natural frequency (Hz) tested against n observations with
+/// misfit S(x), a sum of squared residuals that is least, S_min, at the least-squares estimate. Every number is NaN
+/// where the motion is not continuous at every observation.
+struct PointTest {
+  double value = 0.0;          ///< x, N or Hz
+  double chi_squared = 0.0;    ///< S(x) / sigma^2, sigma as stated
+  double chi_squared_p = 0.0;  ///< probability of more, chi^2 with n degrees of freedom
+  double likelihood_ratio =
+      0.0;  ///< (S(x) - S_min) / sigma^2: twice the log-likelihood ratio with sigma known
+  double likelihood_ratio_p = 0.0;  ///< chi^2 with 1 degree of freedom
+  /// (n - 1) (S(x) - S_min) / S_min, which orders x as the likelihood ratio with sigma unknown does; NaN for n = 1.
+  double f_statistic = 0.0;
+  double f_p = 0.0;  ///< F with 1 and n - 1 degrees of freedom
+};
+
+/// 95 % confidence interval: the values around the estimate that a test at the 5 % level does not reject. An
+/// end that the test does not reach before the bound of the fit is the bound, and marked.
+struct ConfidenceInterval {
+  double lower = 0.0;           ///< N or Hz
+  double upper = 0.0;           ///< N or Hz
+  bool lower_at_bound = false;  ///< lower is the bound of the fit
+  bool upper_at_bound = false;  ///< upper is the bound of the fit
+};
+
+/// Least squares of one parameter, how well it fits with the noise stated, and tests of other values.
+struct ParameterAudit {
+  double estimate = 0.0;                ///< least squares
+  double noise_stated = 0.0;            ///< sigma
+  double noise_unbiased = 0.0;          ///< sqrt(S_min / (n - 1)); NaN for n = 1
+  double chi_squared = 0.0;             ///< S_min / sigma^2
+  double chi_squared_p = 0.0;           ///< n - 1 degrees of freedom; NaN for n = 1
+  ConfidenceInterval noise_known_95;    ///< by the likelihood ratio with sigma as stated
+  ConfidenceInterval noise_unknown_95;  ///< by the F test; NaN for n = 1
+  std::vector<PointTest> tests;         ///< in the order in which Audit states them
+};
+
+/// What the table says of its own statement; vectors have one entry an observation.
+struct Audit {
+  std::vector<double> frequency_difference_hz;  ///< omega_b - r omega_n
+  std::vector<double> ratio_residual;           ///< (r - r_nom) / sigma_r
+  double ratio_chi_squared = 0.0;               ///< sum of their squares: the errors of Eq. 22
+  double ratio_chi_squared_p = 0.0;             ///< chi^2 with n degrees of freedom
+  /// (phase - model) / sigma_phase at the stated friction force and at the alternative
+  std::vector<double> phase_residual_truth;
+  std::vector<double> phase_residual_alternative;  ///< the same at the alternative
+  ParameterAudit friction_force;                   ///< tests: of the stated truth, then of the alternative
+  ParameterAudit natural_frequency;                ///< tests: of the stated truth
+};
+
+/// \param truth  what is stated; both noise levels positive
+/// \param alternative_n  another friction force, N
+/// \throws std::invalid_argument for invalid observations or physics or noise levels that are not positive;
+///         std::runtime_error if least squares does not converge.
+[[nodiscard]] Audit audit(const friction::Observations& observations, const Truth& truth,
+                          double alternative_n, const friction::Physics& physics);
+
+}  // namespace replication

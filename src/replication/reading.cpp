@@ -1,0 +1,68 @@
+#include "replication/reading.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace replication {
+
+Reading reading(ReadingName name) {
+  Reading r;
+  r.sampler.diagnose = false;  // the published samplers have none, and studies of many runs need the time
+  switch (name) {
+    case ReadingName::as_published:
+      r.sampler.criterion.deviation = tmcmc::Deviation::sample;
+      r.sampler.criterion.counted = tmcmc::Counted::all;
+      r.sampler.boundary = tmcmc::Boundary::redraw;
+      r.physics.limit = friction::LimitRule::grid;
+      r.physics.phase = friction::PhaseRule::discrete_bin;
+      r.infeasible_log_likelihood = -1e10;
+      r.natural_frequency_lower_hz = 0.001;
+      break;
+    case ReadingName::as_worded:
+      r.sampler.criterion.counted = tmcmc::Counted::all;
+      r.sampler.move = tmcmc::MoveKind::growing_chains;
+      r.sampler.move_steps = 1;
+      r.sampler.centre = tmcmc::Centre::plain_mean;
+      r.physics.limit = friction::LimitRule::grid;
+      r.physics.phase = friction::PhaseRule::discrete_bin;
+      r.infeasible_log_likelihood = -1e10;
+      break;
+    case ReadingName::corrected:
+      r.infeasible_log_likelihood = -std::numeric_limits<double>::infinity();
+      break;
+  }
+  return r;
+}
+
+tmcmc::Problem problem(const Reading& reading, const friction::Observations& observations,
+                       const tmcmc::BoxPrior& prior) {
+  return {friction::Likelihood(observations, reading.physics, reading.infeasible_log_likelihood), prior};
+}
+
+const std::vector<std::string>& reading_names() {
+  static const std::vector<std::string> names = {"as_published", "as_worded", "corrected"};
+  return names;
+}
+
+ReadingName parse_reading(const std::string& name) {
+  const auto& names = reading_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument("reading '" + name + "': expected as_published, as_worded or corrected");
+  }
+  return static_cast<ReadingName>(found - names.begin());
+}
+
+std::vector<Arm> paper_arms(const Reading& reading, double cov_target, double ess_fraction) {
+  Arm tmcmc{"TMCMC", reading.sampler};
+  tmcmc.options.infeasible_level = reading.infeasible_log_likelihood;
+  tmcmc.options.criterion.kind = tmcmc::CriterionKind::coefficient_of_variation;
+  tmcmc.options.criterion.target = cov_target;
+  Arm tmcmc_ii{"TMCMC-II", tmcmc.options};
+  tmcmc_ii.options.criterion.kind = tmcmc::CriterionKind::effective_sample_size;
+  tmcmc_ii.options.criterion.target = ess_fraction;
+  return {tmcmc, tmcmc_ii};
+}
+
+}  // namespace replication

@@ -1,0 +1,57 @@
+/// \file
+/// Readings of the paper. Its text, its authors' published scripts and correct mathematics differ in places;
+/// each difference is one option of a library, and a reading is a set of options.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "friction/likelihood.hpp"
+#include "tmcmc/sampler.hpp"
+
+namespace replication {
+
+/// A complete set of options: sampler, physics, likelihood and prior.
+struct Reading {
+  tmcmc::Options
+      sampler;  ///< all but kind and target of the criterion, which belong to the samplers compared
+  friction::Physics physics;               ///< of the phase model: Eqs. 18 and 21
+  double infeasible_log_likelihood = 0.0;  ///< where the motion is not continuous
+  /// Lower prior bound of the natural frequency, Hz, where it differs from Table 2.
+  std::optional<double> natural_frequency_lower_hz;
+};
+
+/// The readings there are.
+enum class ReadingName {
+  as_published,  ///< the authors' published scripts, with N_eff = N/2 for TMCMC-II: the default of the
+                 ///< reproduction
+  as_worded,     ///< the text of the paper, as far as it can be run
+  corrected      ///< correct mathematics
+};
+
+/// The options of a reading, as the README tabulates them.
+[[nodiscard]] Reading reading(ReadingName name);
+
+/// The sampling problem of a reading: likelihood of the observations and prior.
+/// \throws std::invalid_argument for invalid observations or physics.
+[[nodiscard]] tmcmc::Problem problem(const Reading& reading, const friction::Observations& observations,
+                                     const tmcmc::BoxPrior& prior);
+
+/// Names as used on command lines, in the order of ReadingName.
+[[nodiscard]] const std::vector<std::string>& reading_names();
+
+/// \throws std::invalid_argument naming the readings there are.
+[[nodiscard]] ReadingName parse_reading(const std::string& name);
+
+/// One of the samplers that a study compares: a name and complete options.
+struct Arm {
+  std::string name;        ///< as tables and files have it
+  tmcmc::Options options;  ///< complete, criterion included
+};
+
+/// The paper's two samplers: TMCMC (CoV = cov_target, Eq. 6) and TMCMC-II (N_eff = ess_fraction N, Eq. 9).
+[[nodiscard]] std::vector<Arm> paper_arms(const Reading& reading, double cov_target = 1.0,
+                                          double ess_fraction = 0.5);
+
+}  // namespace replication

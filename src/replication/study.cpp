@@ -1,0 +1,107 @@
+#include "replication/study.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "pbox/pbox.hpp"
+#include "portable_math/sums.hpp"
+#include "tmcmc/diagnostics.hpp"
+#include "tmcmc/parallel.hpp"
+
+namespace replication {
+
+namespace {
+
+std::string name_run(const Arm& arm, tmcmc::Index index) {
+  return arm.name + ", run " + std::to_string(index) + ": ";
+}
+
+}  // namespace
+
+void StudyOptions::validate() const {
+  if (runs < 1) {
+    throw std::invalid_argument("runs = " + std::to_string(runs) + ": expected at least 1");
+  }
+  if (threads < 1) {
+    throw std::invalid_argument("threads = " + std::to_string(threads) + ": expected at least 1");
+  }
+}
+
+Moments moments(std::span<const double> values) {
+  if (values.empty()) {
+    throw std::invalid_argument("moments: expected at least one value");
+  }
+  const std::size_t n = values.size();
+  const double count = static_cast<double>(n);
+  const double mean = portable_math::sum_of(n, [&](std::size_t i) { return values[i]; }) / count;
+  if (n == 1) {
+    return {mean, 0.0};
+  }
+  const double squares =
+      portable_math::sum_of(n, [&](std::size_t i) { return (values[i] - mean) * (values[i] - mean); });
+  return {mean, std::sqrt(squares / (count - 1.0))};
+}
+
+std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
+                         const StudyOptions& options, const RunObserver& observer) {
+  options.validate();
+  arm.options.validate();
+  std::vector<Run> runs(static_cast<std::size_t>(options.runs));
+  tmcmc::for_each_block(
+      options.runs, 1, options.threads, [&](tmcmc::Index index, tmcmc::Index, tmcmc::Index) {
+        Run& run = runs[static_cast<std::size_t>(index)];
+        const tmcmc::StreamKey key{options.seed, options.study, arm_index, static_cast<std::uint32_t>(index)};
+        try {
+          run.result = tmcmc::run(problem, arm.options, key);
+          if (run.result.stop != tmcmc::StopReason::completed) {
+            throw tmcmc::SamplingError("ended at beta = " + std::to_string(run.result.final.beta) +
+                                       " after " + std::to_string(run.iterations()) +
+                                       " stages: " + tmcmc::describe(run.result.stop));
+          }
+        } catch (const tmcmc::InfeasiblePriorError& error) {
+          throw tmcmc::InfeasiblePriorError(name_run(arm, index) + error.what());
+        } catch (const tmcmc::SamplingError& error) {
+          throw tmcmc::SamplingError(name_run(arm, index) + error.what());
+        }
+        const auto& points = run.result.final.points;
+        run.mean.resize(points.cols());
+        run.standard_deviation.resize(points.cols());
+        for (tmcmc::Index j = 0; j < points.cols(); ++j) {
+          const Moments m = moments({points.col(j).data(), static_cast<std::size_t>(points.rows())});
+          run.mean[j] = m.mean;
+          run.standard_deviation[j] = m.standard_deviation;
+        }
+        if (observer) {
+          observer();
+        }
+      });
+  return runs;
+}
+
+Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads) {
+  if (runs.empty()) {
+    throw std::invalid_argument("pbox_areas: expected at least one run");
+  }
+  const tmcmc::Index d = runs.front().result.final.points.cols();
+  Eigen::VectorXd areas(d);
+  tmcmc::for_each_block(d, 1, threads, [&](tmcmc::Index j, tmcmc::Index, tmcmc::Index) {
+    std::vector<pbox::Ecdf> ecdfs;
+    ecdfs.reserve(runs.size());
+    for (const Run& run : runs) {
+      const auto column = run.result.final.points.col(j);
+      ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()));
+    }
+    areas[j] = pbox::area_metric(ecdfs);
+  });
+  return areas;
+}
+
+std::map<tmcmc::Index, tmcmc::Index> iteration_counts(const std::vector<Run>& runs) {
+  std::map<tmcmc::Index, tmcmc::Index> counts;
+  for (const Run& run : runs) {
+    ++counts[run.iterations()];
+  }
+  return counts;
+}
+
+}  // namespace replication

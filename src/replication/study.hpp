@@ -1,0 +1,57 @@
+/// \file
+/// A study: R independent runs of each sampler on one problem, and what the paper reports of them.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "replication/reading.hpp"
+
+namespace replication {
+
+/// Size of a study and its random streams.
+struct StudyOptions {
+  tmcmc::Index runs = 50;   ///< R, of each sampler (Section 4 of the paper)
+  std::uint64_t seed = 1;   ///< of the random streams
+  std::uint32_t study = 0;  ///< number of the study among its replications
+  int threads = 1;          ///< over the runs
+
+  /// \throws std::invalid_argument naming field, value and constraint.
+  void validate() const;
+};
+
+/// One run: final samples, records of the stages, and moments.
+struct Run {
+  tmcmc::Result result;                ///< as the sampler returned it
+  Eigen::VectorXd mean;                ///< of the final samples, one entry a parameter
+  Eigen::VectorXd standard_deviation;  ///< of the final samples (N - 1)
+
+  /// Number of stages: what Table 4 counts.
+  [[nodiscard]] tmcmc::Index iterations() const { return static_cast<tmcmc::Index>(result.stages.size()); }
+};
+
+/// Called once after each run, possibly from several threads at a time.
+using RunObserver = std::function<void()>;
+
+/// R runs of one sampler; run i uses the stream (seed, study, arm, i).
+/// \throws tmcmc::SamplingError naming sampler and run if a run fails or ends before beta = 1.
+[[nodiscard]] std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
+                                       const StudyOptions& options, const RunObserver& observer = {});
+
+/// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry a parameter.
+/// \param threads  over the parameters; the areas do not depend on it
+/// \throws std::invalid_argument if there is no run.
+[[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads = 1);
+
+/// Number of runs that took each number of iterations (Table 4).
+[[nodiscard]] std::map<tmcmc::Index, tmcmc::Index> iteration_counts(const std::vector<Run>& runs);
+
+/// Mean and standard deviation (N - 1; 0 for one value) in index order.
+struct Moments {
+  double mean = 0.0;                ///< sum over n
+  double standard_deviation = 0.0;  ///< in the unit of the values
+};
+/// \throws std::invalid_argument if there is no value.
+[[nodiscard]] Moments moments(std::span<const double> values);
+
+}  // namespace replication
