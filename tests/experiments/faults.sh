@@ -179,32 +179,36 @@ rm -f out.csv.journal
 # ---------------------------------------------------------------- signals, make
 
 unset MAKEFLAGS MFLAGS MAKELEVEL
-built=build/release/.built
 tables="table1_observations fig2_phase_angle criterion_identity sampling_study_samples sampling_study_runs table3_pbox_area
   table4_iteration_counts replicated_study"
-pipeline() {  # DIRECTORY: some of make's results, with the executables as they are
-  make -C "$source" --no-print-directory BIN="$bin" GEN="$work/$1" STUDIES=1 -o $built \
-    $(executables | sed "s|^|-o $bin/|") $(for t in $tables; do echo "$work/$1/$t.csv"; done)
+generated=data/generated
+plant() {  # TREE: the pipeline without results, with the executables as they are
+  (cd "$source" && tools/fresh_tree "$work/$1" "$bin/..") && printf '#!/bin/sh\n' >"$1/tools/build"
 }
+pipeline() {  # TREE: some of make's results
+  make -C "$1" --no-print-directory STUDIES=1 $(for t in $tables; do echo "$generated/$t.csv"; done)
+}
+plant made
 before=$(milliseconds)
 pipeline made >make.txt 2>&1; status=$?
 check "make: $(tail -2 make.txt)" test $status = 0
 make_time=$(($(milliseconds) - before))
 for signal in INT TERM KILL; do
-  rm -rf again
+  plant again
   start pipeline again
   pause $((RANDOM * make_time / 32768))
   check "SIG$signal ends make within seconds" stop $signal
-  missing=$(for t in $tables; do [ -e "again/$t.csv" ] || echo "$t"; done)
+  missing=$(for t in $tables; do [ -e "again/$generated/$t.csv" ] || echo "$t"; done)
   check "SIG$signal ends make by an error, unless all was done" test $status != 0 -o -z "$missing"
-  for file in again/*.csv; do
-    [ ! -e "$file" ] || check "SIG$signal: $file is whole" cmp -s "$file" "made/${file#again/}"
+  for file in again/$generated/*.csv; do
+    case $file in *'*'* | */manifest.csv) continue ;; esac
+    check "SIG$signal: $file is whole" cmp -s "$file" "made/${file#again/}"
   done
-  [ $signal = KILL ] || check "SIG$signal, make: no temporary file" test -z "$(temporary_files again 2>/dev/null)"
+  [ $signal = KILL ] || check "SIG$signal, make: no temporary file" test -z "$(find again -name '*.part')"
   pipeline again >make.txt 2>&1; status=$?
   check "SIG$signal, make again: $(tail -2 make.txt)" test $status = 0
-  for t in $tables; do
-    check "SIG$signal, make again: $t" cmp -s "made/$t.csv" "again/$t.csv"
+  for t in $tables manifest; do
+    check "SIG$signal, make again: $t" cmp -s "made/$generated/$t.csv" "again/$generated/$t.csv"
   done
 done
 finish

@@ -34,7 +34,7 @@ executables() { (cd "$source/experiments" && ls ./*.cpp) | sed 's|^\./||; s|\.cp
 small="--runs 3 --samples 200"
 make_small_inputs() {
   local made=data/generated
-  mkdir -p $made paper
+  mkdir -p $made
   "$bin/sampling_study" $small --quiet --output $made/sampling_study_samples.csv \
     --runs-output $made/sampling_study_runs.csv --stages-output $made/sampling_study_stages.csv
   "$bin/table3_pbox_area" --quiet --output $made/table3_pbox_area.csv
@@ -43,8 +43,6 @@ make_small_inputs() {
   "$bin/replicated_study" $small --studies 4 --quiet --output $made/replicated_study.csv
   printf '%s\n' friction_force_n,natural_frequency_hz,phase_noise_deg,frequency_ratio_noise,frequency_ratio \
     0.5,3,2,0.02,0.8 >points.csv
-  printf 'key,file,where,column,statistic,format\nruns,generated/sampling_study_runs.csv,,run,count,integer\n' >paper/values.csv
-  printf 'key,file,where,columns\nareas,generated/table3_pbox_area.csv,,sampler:text friction_force_n\n' >paper/tables.csv
 }
 
 # small_options EXECUTABLE: options with which it ends soon.

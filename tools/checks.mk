@@ -1,0 +1,121 @@
+# Checks of the code, of the committed files and of the machine's independence; docs/checks.md says what each has found.
+
+.PHONY: test verify verify-parts check-manifest another-seed identical format-check bench scaling sanitize tidy coverage mutations \
+  fuzz build-mpi test-mpi bench-mpi docs install
+
+#: make test        build and run the tests
+test: | $(filter deps,$(MAKECMDGOALS))
+	tools/build all
+	ctest --preset release -j $$(nproc)
+
+#: make check-manifest  the committed files and the sources against the manifest, in a second
+check-manifest:
+	@tools/step --check
+
+# Of the studies that take minutes each, verify-parts takes the committed tables and makes parts of them again.
+#: make verify      everything made again in build/verify and compared with the committed files
+#: make verify-parts  the same in two minutes: of the four studies that take minutes each, parts
+verify: build check-manifest
+	tools/verify
+
+verify-parts: build check-manifest
+	tools/verify replicated_study readings cost_accuracy benchmark_problems
+	tools/verify_parts $(BIN) $(GEN) $(TABLE1)
+
+SEED ?= 2
+#: make another-seed  replicated studies with SEED=2, and whether every verdict is the same
+another-seed: build $(GEN)/compare_published.md $(GEN)/verdicts.md
+	tools/another_seed $(BIN) $(GEN) $(PUB) $(SEED) $(STUDIES)
+
+#: make identical   build with other compilers and instruction sets and compare the bytes of the samples
+identical: | sanitize-deps $(filter deps,$(MAKECMDGOALS))
+	tools/identical_bytes
+
+#: make format-check  whether clang-format would change a source
+format-check: | format-deps
+	find src experiments tests bench -name '*.[ch]pp' | xargs clang-format --dry-run --Werror
+
+#: make sanitize    the test suite with the address, undefined-behaviour and thread sanitizers
+sanitize: | sanitize-deps
+	for preset in asan-ubsan tsan; do \
+	  cmake --preset $$preset >build/$$preset.configure.log 2>&1 || { cat build/$$preset.configure.log; exit 1; }; \
+	  cmake --build --preset $$preset && ctest --preset $$preset -j $$(nproc) || exit 1; done
+
+#: make fuzz        libFuzzer on the CSV reader and the command line, FUZZ_SECONDS each, with sanitizers
+FUZZ_SECONDS ?= 30
+fuzz: | sanitize-deps
+	@mkdir -p build/fuzz/corpus/csv build/fuzz/corpus/options
+	cmake --preset asan-ubsan >build/asan-ubsan.configure.log 2>&1 || { cat build/asan-ubsan.configure.log; false; }
+	cmake --build --preset asan-ubsan --target fuzz_targets
+	@for t in csv options; do echo "fuzz: $$t, $(FUZZ_SECONDS) s"; \
+	  build/asan-ubsan/bin/fuzz_$$t -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 \
+	    -artifact_prefix=build/fuzz/$$t- build/fuzz/corpus/$$t tests/fuzz/corpus/$$t || exit 1; done
+
+#: make tidy        clang-tidy over src, experiments and bench
+tidy: | sanitize-deps
+	cmake -S . -B build/tidy -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DTMCMC_BUILD_TESTS=OFF \
+	  -DTMCMC_BUILD_BENCHMARKS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+	run-clang-tidy -quiet -p build/tidy '/(src|experiments|bench)/.*\.cpp$$' 2>&1 | tools/tidy_report
+
+#: make coverage    lines of src/ that the tests run
+coverage: | coverage-deps
+	cmake --preset coverage >/dev/null
+	cmake --build --preset coverage
+	find build/coverage -name '*.gcda' -delete
+	ctest --preset coverage -j $$(nproc)
+	gcovr --root . --object-directory build/coverage --filter src/ --exclude-throw-branches --txt build/coverage/lines.txt --print-summary
+
+#: make mutations   deliberate faults in src/, and which test sees each (half an hour)
+mutations:
+	tools/build all
+	tests/mutations/run
+
+#: make bench       measure speed (Google Benchmark)
+bench:
+	CMAKE_FLAGS="$(CMAKE_FLAGS) -DTMCMC_BUILD_BENCHMARKS=ON" tools/build benchmarks
+	@mkdir -p build/bench
+	$(BIN)/benchmarks --benchmark_min_time=0.2 --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+	  --benchmark_out=build/bench/benchmarks.json --benchmark_out_format=json
+
+# Times differ from machine to machine: no part of `make all`.
+#: make scaling     time and memory over samples, threads and observations, with figure, into SCALING=build/scaling
+SCALING ?= build/scaling
+scaling:
+	tools/build scaling
+	@mkdir -p $(SCALING)
+	$(BIN)/scaling --output $(SCALING)/scaling.csv
+	figures/draw scaling $(SCALING) $(SCALING)
+
+# ---------------------------------------------------------------- for mpirun (docs/clusters.md)
+
+#: make build-mpi   the executables that run under mpirun, into build/mpi/bin (OpenMPI is installed if missing)
+build-mpi: | mpi-deps $(filter deps,$(MAKECMDGOALS))
+	@mkdir -p build
+	cmake --preset mpi $(CMAKE_FLAGS) >build/mpi.configure.log 2>&1 || { cat build/mpi.configure.log; false; }
+	cmake --build --preset mpi --target replicated_study
+
+#: make test-mpi    the same and its tests;  make bench-mpi  a batch of a slow model on one and two ranks
+test-mpi: build-mpi
+	cmake --build --preset mpi --target test_distributed shared_run
+	ctest --preset mpi -R '^distributed'
+
+bench-mpi: export OMPI_ALLOW_RUN_AS_ROOT := 1
+bench-mpi: export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1
+bench-mpi: build-mpi
+	cmake --build --preset mpi --target shared_batch
+	mpirun -np 1 build/mpi/bin/shared_batch
+	mpirun -np 2 build/mpi/bin/shared_batch
+
+# ---------------------------------------------------------------- the libraries elsewhere
+
+#: make docs        API reference by Doxygen, build/docs/html/index.html
+docs: doc-deps
+	@mkdir -p build/docs
+	doxygen docs/Doxyfile
+
+#: make install     the libraries, their headers and the CMake package into PREFIX=/usr/local
+PREFIX ?= /usr/local
+install:
+	cmake --preset release -B build/install -DTMCMC_BUILD_EXPERIMENTS=OFF -DTMCMC_BUILD_TESTS=OFF $(CMAKE_FLAGS)
+	cmake --build build/install
+	cmake --install build/install --prefix $(PREFIX)

@@ -1,0 +1,17 @@
+# Debian packages, a list for each purpose; each target installs what is missing of its list.
+PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
+  catch2 libbenchmark-dev libnetcdf-dev netcdf-bin python3-minimal procps gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
+  texlive-latex-recommended texlive-fonts-recommended
+
+doc-deps: PACKAGES := doxygen
+format-deps: PACKAGES := clang-format
+sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
+coverage-deps: PACKAGES := gcovr
+mpi-deps: PACKAGES := libopenmpi-dev openmpi-bin
+reader-deps: PACKAGES := python3-xarray python3-h5netcdf
+
+DEPS := deps doc-deps format-deps sanitize-deps coverage-deps mpi-deps reader-deps
+.PHONY: $(DEPS)
+#: make deps        install the Debian packages that are missing (root or sudo only if there are any)
+$(DEPS):
+	@tools/install_packages $(PACKAGES)
