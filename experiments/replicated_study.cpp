@@ -12,8 +12,8 @@
 #include "archive/settings.hpp"
 #include "distributed/farm.hpp"
 #include "inputs.hpp"
+#include "io/interrupt.hpp"
 #include "io/journal.hpp"
-#include "io/signals.hpp"
 #include "replication/replication.hpp"
 
 using namespace experiments;
@@ -123,7 +123,8 @@ int main(int argc, char** argv) {
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
-    const auto problem = replication::problem(reading, observations, prior);
+    auto problem = replication::problem(reading, observations, prior);
+    problem.log_likelihood = interruptible(problem.log_likelihood);
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
 
@@ -156,33 +157,31 @@ int main(int argc, char** argv) {
           program.report("{} studies were done before\n", rows.size() / arms.size());
         }
       }
-      const auto say_what_is_kept = [&] {
-        if (journal) {
-          io::set_interruption_note(
-              fmt::format("{} of {} studies kept in {}, run the same command again to go on",
-                          rows.size() / arms.size(), studies, journal->path().string()));
-        }
-      };
-      say_what_is_kept();
       const auto done = static_cast<long>(rows.size() / arms.size());
       io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
       long next = done;
-      farm.run(
-          [&]() -> std::optional<std::string> {
-            return next < studies ? std::optional(std::to_string(first_study + next++)) : std::nullopt;
-          },
-          [&](const std::string& rows_of_study) {
-            const auto added = parts(rows_of_study, '\n');
-            if (journal) {
-              journal->append(added);
-            }
-            rows.insert(rows.end(), added.begin(), added.end());
-            say_what_is_kept();
-            progress.advance();
-          });
+      try {
+        farm.run(
+            [&]() -> std::optional<std::string> {
+              return next < studies ? std::optional(std::to_string(first_study + next++)) : std::nullopt;
+            },
+            [&](const std::string& rows_of_study) {
+              const auto added = parts(rows_of_study, '\n');
+              if (journal) {
+                journal->append(added);
+              }
+              rows.insert(rows.end(), added.begin(), added.end());
+              progress.advance();
+            });
+      } catch (io::Interrupted& interrupted) {
+        if (journal) {
+          interrupted.kept = fmt::format("{} of {} studies kept in {}, run the same command again to go on",
+                                         rows.size() / arms.size(), studies, journal->path().string());
+        }
+        throw;
+      }
       if (journal) {
         journal->finish(first_study == 0 ? header() : "");
-        io::set_interruption_note("");
       } else if (stream) {
         stream->write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
                                   fmt::join(rows, "\n")));

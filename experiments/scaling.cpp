@@ -14,6 +14,7 @@
 #include <csignal>
 
 #include "inputs.hpp"
+#include "io/interrupt.hpp"
 #include "replication/synthetic.hpp"
 
 using namespace experiments;
@@ -108,8 +109,12 @@ Measurement measure(const Setting& setting) {
   rusage usage{};
   int status = 0;
   if (child > 0) {
+    if (!complete) {  // an interrupt broke off the read
+      kill(child, SIGKILL);
+    }
     wait4(child, &status, 0, &usage);
   }
+  io::stop_if_interrupted();
   if (!complete || status != 0) {
     throw std::runtime_error(
         fmt::format("the measurement of {} samples on {} threads failed", setting.samples, setting.threads));

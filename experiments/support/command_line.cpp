@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
 #include <string_view>
 
-#include "io/signals.hpp"
+#include "io/interrupt.hpp"
 
 namespace experiments {
 
@@ -197,7 +198,29 @@ void Program::check_paths() {
 }
 
 int Program::run(int argc, char** argv, const std::function<void()>& body) {
+  keep_standard_descriptors();
+  io::catch_interrupts();
+  io::Interrupted interrupted;
+  int status = 0;
+  try {
+    status = run_to_end(argc, argv, body);
+  } catch (const io::Interrupted& caught) {
+    interrupted = caught;
+  }
+  if (io::interrupt_signal() == 0) {
+    return status;
+  }
+  if (io::interrupt_signal() != SIGPIPE) {  // whoever closed the pipe knows
+    std::fputs(fmt::format("{}: interrupted: {}\n", app_->get_name(), interrupted.kept).c_str(), stderr);
+  }
+  io::die_of_interrupt();
+}
+
+int Program::run_to_end(int argc, char** argv, const std::function<void()>& body) {
   const auto fail = [&](int status, const std::string& message) {
+    if (io::interrupt_signal() != 0) {  // a system call that was broken off
+      return status;
+    }
     if (ranks_ == nullptr || ranks_->reports_failure()) {
       const std::string line =
           fmt::format("{}: error: {}\n", app_->get_name(), io::printable(message, longest_message));
@@ -205,8 +228,6 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
     }
     return status;
   };
-  keep_standard_descriptors();
-  io::end_cleanly_on_signals(app_->get_name());
   try {
     refuse_empty_values(argc, argv);
     app_->parse(argc, argv);
@@ -247,6 +268,14 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
     return fail(2, fmt::format("standard output: {}: expected to write the report", std::strerror(errno)));
   }
   return 0;
+}
+
+tmcmc::LogLikelihood interruptible(tmcmc::LogLikelihood log_likelihood) {
+  return [log_likelihood = std::move(log_likelihood)](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                                      Eigen::Ref<Eigen::VectorXd> values) {
+    io::stop_if_interrupted();
+    log_likelihood(points, values);
+  };
 }
 
 std::optional<io::CsvWriter> open_csv(const std::string& path, const std::vector<std::string>& columns) {

@@ -77,7 +77,8 @@ class Program {
   [[nodiscard]] const std::string& output() const { return output_; }
   [[nodiscard]] bool quiet() const { return quiet_; }
 
-  /// Parses, calls body, and turns errors into one line on stderr and an exit status.
+  /// Parses, calls body, and turns errors into one line on stderr and an exit status. When a signal has come, one line
+  /// says what is kept, and the process dies by the signal (io::catch_interrupts).
   int run(int argc, char** argv, const std::function<void()>& body);
 
   /// Names a file that is read without an option of its own: no output may be written to it.
@@ -94,6 +95,7 @@ class Program {
   }
 
  private:
+  int run_to_end(int argc, char** argv, const std::function<void()>& body);
   void check_paths();
   void print(std::string text) const;
   [[nodiscard]] bool leads() const { return ranks_ == nullptr || ranks_->rank() == 0; }
@@ -107,6 +109,10 @@ class Program {
   std::vector<std::string> read_files_;
   distributed::Ranks* ranks_ = nullptr;
 };
+
+/// The same log-likelihood; each call is a place where the program can be interrupted.
+/// \throws io::Interrupted when it is called.
+[[nodiscard]] tmcmc::LogLikelihood interruptible(tmcmc::LogLikelihood log_likelihood);
 
 /// The CSV file of an optional output; none if the path is empty.
 /// \throws io::OutputError if it cannot be opened.

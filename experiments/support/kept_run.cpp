@@ -5,13 +5,15 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "command_line.hpp"
 #include "io/errors.hpp"
-#include "io/signals.hpp"
+#include "io/interrupt.hpp"
 
 namespace experiments {
 
-tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikelihood& log_likelihood,
+tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikelihood& model,
                        const std::string& checkpoint) {
+  const auto log_likelihood = interruptible(model);
   if (checkpoint.empty()) {
     return tmcmc::run({log_likelihood, run.prior}, run.options, run.key);
   }
@@ -20,22 +22,20 @@ tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikel
     std::error_code error;
     return std::filesystem::is_regular_file(checkpoint, error);
   };
-  const auto say_what_is_kept = [&] {
-    if (is_kept()) {
-      io::set_interruption_note(
-          fmt::format("the stages so far are kept in {}, run the same command again to go on", checkpoint));
-    }
-  };
-  say_what_is_kept();
   double beta = -1.0;
   std::size_t stages = 0;
   try {
     return archive::run_with_checkpoint(checkpoint, run, log_likelihood,
                                         [&](const tmcmc::Progress& progress) {
-                                          say_what_is_kept();
                                           beta = progress.state.beta;
                                           stages = progress.stages.size();
                                         });
+  } catch (io::Interrupted& interrupted) {
+    if (is_kept()) {
+      interrupted.kept =
+          fmt::format("the stages so far are kept in {}, run the same command again to go on", checkpoint);
+    }
+    throw;
   } catch (const io::InputError&) {
     throw;
   } catch (const io::OutputError&) {

@@ -9,9 +9,8 @@
 namespace experiments {
 
 /// archive::run_with_checkpoint, or tmcmc::run if the path is empty.
-/// \throws as these; what ends the run says in its message which stage is kept, and where.
-[[nodiscard]] tmcmc::Result run_kept(const archive::RunDescription& run,
-                                     const tmcmc::LogLikelihood& log_likelihood,
+/// \throws as these, and io::Interrupted; what ends the run says in its message which stage is kept, and where.
+[[nodiscard]] tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikelihood& model,
                                      const std::string& checkpoint);
 
 }  // namespace experiments

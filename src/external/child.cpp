@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
+#include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,47 +13,61 @@
 #include <csignal>
 #include <system_error>
 
-#include "io/process_groups.hpp"
+#include "io/interrupt.hpp"
 
 namespace external {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Only calls that are safe between fork and exec in a program with threads.
-[[noreturn]] void become(char* const* arguments, const char* directory, pid_t parent, int error_pipe) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
+constexpr std::chrono::milliseconds longest_wait(50);  // between two looks at the interrupt flag
+
+/// Errno of a child that could not be started, or 0. It leads a process group.
+int spawn(char* const* arguments, const char* directory, pid_t& child) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
   // A process of the background that reads from the terminal would be stopped.
-  const int nothing = open("/dev/null", O_RDONLY);
-  if (getppid() == parent && chdir(directory) == 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0) {
-    execv(arguments[0], arguments);
-  }
-  const int error = errno;
-  [[maybe_unused]] const auto written = write(error_pipe, &error, sizeof error);
-  _exit(127);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawn_file_actions_addchdir_np(&actions, directory);
+
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigaddset(&signals, SIGXFSZ);  // which io::catch_interrupts ignores
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+
+  const int error = posix_spawn(&child, arguments[0], &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
 }
 
-/// Whether the process ended before the deadline.
-bool wait_until(int process, bool limited, Clock::time_point deadline) {
-  for (;;) {
-    int milliseconds = -1;
-    if (limited) {
-      const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-      milliseconds = static_cast<int>(std::clamp<long long>(left, 0, 1000000));
-    }
+/// Kills what is left of the group; gives the leader's wait status.
+int end_group(pid_t leader) {
+  kill(-leader, SIGKILL);  // until waitpid the number is the leader's own, even if it has ended
+  int status = 0;
+  while (waitpid(leader, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// Whether the process ended before the deadline and before an interrupt.
+bool wait_for(int process, Clock::time_point deadline) {
+  for (auto now = Clock::now(); now < deadline && io::interrupt_signal() == 0; now = Clock::now()) {
+    const auto wait = std::min<Clock::duration>(longest_wait, deadline - now);
     pollfd waited{process, POLLIN, 0};
-    const int ready = poll(&waited, 1, milliseconds);
-    if (ready > 0) {
+    const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(wait).count();
+    if (poll(&waited, 1, static_cast<int>(milliseconds)) > 0) {
       return true;
     }
-    if (ready == 0 && limited && Clock::now() >= deadline) {
-      return false;
-    }
   }
+  return false;
 }
 
 }  // namespace
@@ -65,41 +79,24 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
     pointers.push_back(const_cast<char*>(argument.c_str()));
   }
   pointers.push_back(nullptr);
-  int error_pipe[2];
-  if (pipe2(error_pipe, O_CLOEXEC) != 0) {
-    throw std::system_error(errno, std::generic_category(), "pipe");
+  const auto limit = std::chrono::duration<double>(std::min(timeout_seconds, 1e9));
+  const auto deadline = timeout_seconds > 0.0
+                            ? Clock::now() + std::chrono::duration_cast<Clock::duration>(limit)
+                            : Clock::time_point::max();
+  pid_t child = -1;
+  if (const int error = spawn(pointers.data(), directory.c_str(), child); error != 0) {
+    return {ChildEnd::Kind::not_started, error};
   }
-  const bool limited = timeout_seconds > 0.0;
-  const auto deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                         std::chrono::duration<double>(limited ? std::min(timeout_seconds, 1e9) : 0.0));
-  const pid_t parent = getpid();
-  const pid_t child = io::fork_group();
-  if (child == 0) {
-    become(pointers.data(), directory.c_str(), parent, error_pipe[1]);
-  }
-  const int fork_error = errno;
-  close(error_pipe[1]);
-  if (child < 0) {
-    close(error_pipe[0]);
-    return {ChildEnd::Kind::not_started, fork_error};
-  }
-  int start_error = 0;
-  const bool failed = read(error_pipe[0], &start_error, sizeof start_error) == sizeof start_error;
-  close(error_pipe[0]);
-
   const int process = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
   if (process < 0) {
     const int error = errno;
-    io::end_group(child);
+    end_group(child);
     throw std::system_error(error, std::generic_category(), "pidfd_open");
   }
-  const bool ended = wait_until(process, limited, deadline);
+  const bool ended = wait_for(process, deadline);
   close(process);
-  const int status = io::end_group(child);
-  if (failed) {
-    return {ChildEnd::Kind::not_started, start_error};
-  }
+  const int status = end_group(child);
+  io::stop_if_interrupted();
   if (!ended) {
     return {ChildEnd::Kind::timed_out, 0};
   }

@@ -15,10 +15,11 @@ struct ChildEnd {
   int value;  ///< exit status, number of the signal, or errno
 };
 
-/// Runs arguments[0], a path, in the given directory with standard output on standard error. The child leads a process group
-/// (io::fork_group), which is killed when the time is over or the child has ended, and when a signal ends this process. The
-/// child itself is killed too when the calling thread ends.
+/// Runs arguments[0], a path, in the given directory with standard output on standard error. The child leads a process
+/// group, which is killed when the time is over, when the child has ended and at an interrupt. A kill -9 of this process
+/// leaves it running.
 /// \param timeout_seconds  0: no limit
+/// \throws io::Interrupted if a signal has come (io::catch_interrupts); std::system_error without pidfd_open.
 [[nodiscard]] ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& directory,
                                  double timeout_seconds);
 

@@ -69,7 +69,6 @@ Program::Program(ProgramOptions options) : options_(std::move(options)) {
                                            : "not a file"));
   }
   options_.program = fs::absolute(options_.program).string();
-  io::ScratchDirectory::remove_stale(scratch_name);
 }
 
 void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
@@ -96,7 +95,7 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   if (points.rows() == 0) {
     return;
   }
-  const io::ScratchDirectory scratch(scratch_name, {points_name, results_name});
+  const io::ScratchDirectory scratch(scratch_name);
   const std::string input = scratch.path() + "/" + points_name;
   const std::string output = scratch.path() + "/" + results_name;
   io::CsvWriter writer(input, options_.parameter_names);

@@ -35,14 +35,14 @@ class ProgramError : public std::runtime_error {
 class Program {
  public:
   /// \throws std::invalid_argument for no parameter or a timeout that is negative or not finite; ProgramError if the program
-  ///         is not an executable file. Removes what an earlier process that was killed left in the temporary directory.
+  ///         is not an executable file.
   explicit Program(ProgramOptions options);
 
   /// \param points  n x d
   /// \param log_likelihood  n, overwritten
   /// \throws ProgramError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
   ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is neither a number nor minus infinity;
-  ///         io::OutputError if the points cannot be written.
+  ///         io::OutputError if the points cannot be written; io::Interrupted as run_child.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 

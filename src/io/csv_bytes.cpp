@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "io/errors.hpp"
+#include "io/interrupt.hpp"
 
 namespace io {
 namespace {
@@ -56,6 +57,7 @@ std::string csv_bytes(const std::filesystem::path& path) {
     text.reserve(static_cast<std::size_t>(status.st_size) + read_chunk_bytes);
   }
   for (;;) {
+    stop_if_interrupted();  // a pipe may wait for its writer for ever
     const std::size_t old_size = text.size();
     text.resize(old_size + read_chunk_bytes);
     const ssize_t got = ::read(file.get(), text.data() + old_size, read_chunk_bytes);

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "io/partial_files.hpp"
+#include "io/interrupt.hpp"
 
 namespace io {
 namespace {
@@ -43,11 +43,11 @@ std::optional<int> descriptor_named_by(const std::string& path) {
 }
 
 int open_retrying(const char* path, int flags, mode_t mode = 0) {
-  int fd = -1;
-  do {
-    fd = ::open(path, flags | O_CLOEXEC | O_NOCTTY, mode);
-  } while (fd < 0 && errno == EINTR);
-  return fd;
+  for (;;) {
+    stop_if_interrupted();  // a pipe may wait for its reader for ever
+    const int fd = ::open(path, flags | O_CLOEXEC | O_NOCTTY, mode);
+    if (fd >= 0 || errno != EINTR) return fd;
+  }
 }
 
 struct Target {
@@ -131,22 +131,39 @@ void OutputFile::open_partial() {
   if (exists && ::access(target_.c_str(), W_OK) != 0) fail(cannot_open, errno, expected_writable);
   const mode_t mode = exists ? status.st_mode & permission_bits : mode_t{0666};
 
-  const std::string stem = fmt::format(".{}", target_.filename().string().substr(0, longest_name_part));
-  for (int attempt = 0; fd_ < 0; ++attempt) {
-    const std::string suffix = attempt == 0 ? "" : fmt::format("-{}", attempt);
-    const auto candidate = target_.parent_path() / fmt::format("{}.{}{}.part", stem, ::getpid(), suffix);
-    fd_ = open_retrying(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL, mode);
-    if (fd_ < 0 && (errno != EEXIST || attempt == most_partial_names))
-      fail(cannot_open, errno, expected_file);
-    if (fd_ >= 0) partial_ = candidate;
-  }
-  slot_ = partial_files::add(partial_.c_str());
   in_place_ = false;
+  // A file without a name cannot stay behind, whatever ends the process. It gets its name through /proc.
+  if (::access("/proc/self/fd", X_OK) == 0) {
+    fd_ = open_retrying(target_.parent_path().c_str(), O_WRONLY | O_TMPFILE, mode);
+  }
+  if (fd_ < 0) name_partial(mode);  // some file systems know none, NFS among them
 
   if (exists && ::fchmod(fd_, mode) != 0) {
     const int error = errno;
     discard();
     fail(cannot_open, error, "permissions that can be kept");
+  }
+}
+
+/// Gives the temporary file a name beside the target, or makes it if there is none.
+void OutputFile::name_partial(unsigned mode) {
+  const std::string stem = fmt::format(".{}", target_.filename().string().substr(0, longest_name_part));
+  const std::string unnamed = fmt::format("/proc/self/fd/{}", fd_);
+  for (int attempt = 0; partial_.empty(); ++attempt) {
+    const std::string suffix = attempt == 0 ? "" : fmt::format("-{}", attempt);
+    const auto candidate = target_.parent_path() / fmt::format("{}.{}{}.part", stem, ::getpid(), suffix);
+    bool named = false;
+    if (fd_ >= 0) {
+      named = ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, candidate.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    } else {
+      fd_ = open_retrying(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL, mode);
+      named = fd_ >= 0;
+    }
+    if (named) {
+      partial_ = candidate;
+    } else if (errno != EEXIST || attempt == most_partial_names) {
+      fail(cannot_open, errno, expected_file);
+    }
   }
 }
 
@@ -169,6 +186,7 @@ void OutputFile::flush() {
 
 void OutputFile::write_through(std::string_view text) {
   while (!text.empty()) {
+    stop_if_interrupted();
     const ssize_t written = ::write(fd_, text.data(), text.size());
     if (written > 0) {
       text.remove_prefix(static_cast<std::size_t>(written));
@@ -185,8 +203,9 @@ void OutputFile::prepare() {
   require_open();
   flush();
   // Some file systems cannot sync and say so; that is no failure of the write.
-  const bool synced = partial_.empty() || ::fsync(fd_) == 0 || errno == EINVAL || errno == ENOSYS;
+  const bool synced = in_place_ || ::fsync(fd_) == 0 || errno == EINVAL || errno == ENOSYS;
   if (!synced) fail(cannot_write, errno, expected_whole);
+  if (!in_place_ && partial_.empty()) name_partial(0);
   const bool closed = ::close(fd_) == 0 || errno == EINTR;
   fd_ = -1;
   if (!closed) fail(cannot_write, errno, expected_whole);
@@ -196,11 +215,10 @@ void OutputFile::prepare() {
 void OutputFile::commit() {
   if (!prepared_) prepare();
   prepared_ = false;
-  if (partial_.empty()) return;
+  if (in_place_) return;
   if (::rename(partial_.c_str(), target_.c_str()) != 0) {
     fail("cannot be put in place", errno, "a path that can be replaced");
   }
-  partial_files::remove(slot_);
   partial_.clear();
 }
 
@@ -211,9 +229,7 @@ void OutputFile::require_open() const {
 void OutputFile::discard() noexcept {
   if (fd_ >= 0) ::close(fd_);
   fd_ = -1;
-  if (partial_.empty()) return;
-  ::unlink(partial_.c_str());
-  partial_files::remove(slot_);
+  if (!partial_.empty()) ::unlink(partial_.c_str());
   partial_.clear();
 }
 

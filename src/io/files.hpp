@@ -9,9 +9,10 @@
 
 namespace io {
 
-/// A file that appears complete or not at all. The data go to a temporary file beside the target
-/// (`.name.csv.<process id>.part`), and commit() renames it over the target. Without commit() the destructor
-/// removes the temporary file, and what stood under the path before is untouched. Not thread-safe.
+/// A file that appears complete or not at all. The data go to a temporary file in the target's directory, which has no
+/// name until prepare() (`.name.csv.<process id>.part`; where the file system knows no file without a name it has that
+/// one from the start), and commit() renames it over the target. Without commit() nothing is left of it, and what stood
+/// under the path before is untouched. Not thread-safe.
 ///
 /// What the path may be:
 ///  - "-" or /dev/stdout, /dev/stderr, /dev/fd/N: that open descriptor, in place;
@@ -19,7 +20,8 @@ namespace io {
 ///  - a symbolic link: the file it points to is replaced or created, the link stays;
 ///  - an existing file: replaced, keeping its permissions; one that is write-protected is refused.
 ///
-/// Every failure is an OutputError that names the path, the system's reason and what was expected.
+/// Every failure is an OutputError that names the path, the system's reason and what was expected. The constructor and
+/// what writes throw Interrupted too (stop_if_interrupted).
 class OutputFile {
  public:
   /// Opens the output, so that a bad path is reported before the work. Throws OutputError.
@@ -49,6 +51,7 @@ class OutputFile {
   void open_descriptor(int descriptor);
   void open_in_place();
   void open_partial();
+  void name_partial(unsigned mode);
   void flush();
   void write_through(std::string_view text);
   void require_open() const;
@@ -57,8 +60,7 @@ class OutputFile {
 
   std::filesystem::path path_;
   std::filesystem::path target_;   // absolute, links followed
-  std::filesystem::path partial_;  // empty when written in place
-  int slot_ = -1;
+  std::filesystem::path partial_;  // empty as long as the temporary file has no name
   int fd_ = -1;
   bool prepared_ = false;
   bool is_stdout_ = false;

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/interrupt.hpp"
+
 namespace io {
 namespace {
 
@@ -46,7 +48,8 @@ Progress::~Progress() {
   if (drawn_) show("\r\x1B[K");
 }
 
-void Progress::advance(std::size_t n) noexcept {
+void Progress::advance(std::size_t n) {
+  stop_if_interrupted();
   const std::size_t done = done_.fetch_add(n, std::memory_order_relaxed) + n;
   if (!active_) return;
   const Clock::time_point now = Clock::now();

@@ -19,9 +19,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Counts n more steps as done. Thread-safe, never waits for the terminal of another thread. Does not
-  /// throw.
-  void advance(std::size_t n = 1) noexcept;
+  /// Counts n more steps as done. Thread-safe, never waits for the terminal of another thread.
+  /// \throws Interrupted, nothing else: work that shows its progress can be interrupted at each step.
+  void advance(std::size_t n = 1);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <vector>
 
@@ -13,7 +14,8 @@
 namespace tmcmc {
 
 /// Calls body(block, begin, end) for each block of at most block_size indices of [0, n), on up to `threads`
-/// threads. If some calls throw, the exception of the lowest block is rethrown after all have ended.
+/// threads. If some calls throw, the exception of the lowest block is rethrown after all that have begun have ended; blocks
+/// above one that threw need not begin.
 template <class Body>
 void for_each_block(Index n, Index block_size, int threads, Body body) {
   const Index blocks = (n + block_size - 1) / block_size;
@@ -24,12 +26,15 @@ void for_each_block(Index n, Index block_size, int threads, Body body) {
     return;
   }
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(blocks));
+  std::atomic<Index> failed{blocks};  // one that threw
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (Index block = 0; block < blocks; ++block) {
+    if (block > failed) continue;
     try {
       body(block, block * block_size, std::min(n, (block + 1) * block_size));
     } catch (...) {
       failures[static_cast<std::size_t>(block)] = std::current_exception();
+      failed = block;
     }
   }
   for (const auto& failure : failures) {

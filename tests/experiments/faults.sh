@@ -15,7 +15,7 @@ milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 temporary_files() { find "${1-.}" -name '.*.part'; }
 rows_of() { if [ -e "$1" ]; then wc -l <"$1"; else echo 0; fi; }
 
-has_temporary_files() { [ -n "$(temporary_files "$1")" ]; }
+has_open_output() { find "/proc/$pid/fd" -lname "$work/$1/#*(deleted)" 2>/dev/null | grep -q .; }  # DIRECTORY; has no name yet
 has_rows() { [ "$(rows_of "$1")" -ge "$2" ]; }
 pause() { sleep "$(awk -v m="$1" 'BEGIN {print m / 1000}')"; }
 number_of() { kill -l "$1"; }
@@ -52,12 +52,32 @@ else
   echo 'skipped: full and read-only disks, since no disk can be mounted here'
 fi
 
+# ---------------------------------------------------------------- temporary files that need a name from the start
+
+# Without /proc they do, as on file systems that know no file without a name.
+if [ -n "${OWN_MOUNTS-}" ] && mkdir named && mount -t tmpfs tmpfs /proc 2>/dev/null; then
+  "$bin/sampling_study" --runs 1000 --samples 1000 --threads 1 --quiet --output named/out.csv 2>said.txt &
+  pid=$!
+  wait_for test -e "named/.out.csv.$pid.part"
+  check "a temporary file with a name" test -e "named/.out.csv.$pid.part"
+  kill -TERM $pid
+  wait $pid; status=$?
+  check "is removed at a signal: $status, $(cat said.txt)" test "$status $(ls -A named)" = '143 '
+  "$bin/sampling_study" --runs 2 --samples 100 --threads 1 --quiet --output named/out.csv
+  umount /proc
+  "$bin/sampling_study" --runs 2 --samples 100 --threads 1 --quiet --output unnamed.csv
+  check "and holds the same bytes" cmp -s named/out.csv unnamed.csv
+  check "and nothing is beside it" test "$(ls -A named)" = out.csv
+else
+  echo 'skipped: no /proc'
+fi
+
 # ---------------------------------------------------------------- a directory that goes away
 
 mkdir gone
 mkfifo fifo
 start "$bin/sampling_study" --runs 2 --samples 100 --quiet --output gone/samples.csv --runs-output fifo
-wait_for has_temporary_files gone
+wait_for has_open_output gone
 rm -r gone
 timeout 60 cat fifo >/dev/null
 wait $pid; status=$?
@@ -102,7 +122,6 @@ kill -KILL $pid
 wait $pid 2>/dev/null
 pause 500
 check "a killed scaling leaves no process" test "$(group_runs; echo $?)" = 1
-rm -f .scaling.csv.*.part
 
 # ---------------------------------------------------------------- signals, replicated studies
 
@@ -127,14 +146,15 @@ for signal in INT TERM KILL INT; do
 done
 
 # A second signal does not keep the first one from cleaning up; `timeout` sends two.
+mkdir twice
 for _ in 1 2 3 4 5 6 7 8; do
-  start "$bin/readings" --output twice.csv
-  wait_for has_temporary_files .
+  start "$bin/readings" --output twice/out.csv
+  wait_for has_open_output twice
   pause $((RANDOM % 100))
   kill -TERM $pid; kill -TERM $pid
   wait $pid 2>/dev/null; status=$?
   check "two signals: the status is that of one: $status" test $status = $((128 + $(number_of TERM)))
-  check "two signals: no temporary file" test -z "$(temporary_files)"
+  check "two signals: no temporary file" test -z "$(ls -A twice)"
   check "two signals, one line: $(cat said.txt)" test "$(grep -c interrupted said.txt)" = 1
 done
 

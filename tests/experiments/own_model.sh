@@ -138,27 +138,6 @@ for signal in INT TERM HUP; do
   done
 done
 
-# What a kill leaves is removed at a later start, what another process holds is not.
-script 'echo x >>"$STARTED"; exec sleep 63'
-rm -f started
-STARTED=$work/started start $own --threads 1 --command ./program.sh --output out.csv
-wait_for test -s started
-held=$(ls "$TMPDIR")
-touch -d '2 minutes ago' "$TMPDIR/$held"
-mkdir "$TMPDIR/log-likelihood-abcdef" "$TMPDIR/log-likelihood-abcdeg"
-touch "$TMPDIR/log-likelihood-abcdef/output"
-touch -d '2 minutes ago' "$TMPDIR/log-likelihood-abcdef"
-killed_pid=$pid
-$own --threads 1 --command data/examples/two_storey_frame.py --output after.csv
-check "a stale directory is removed, one that is held or new is not" test "$(ls "$TMPDIR" | sort | tr '\n' ' ')" = "$(printf '%s\n' "$held" log-likelihood-abcdeg | sort | tr '\n' ' ')"
-pid=$killed_pid
-check "a kill ends it" stop KILL
-check "a kill leaves the directory" test -d "$TMPDIR/$held"
-touch -d '2 minutes ago' "$TMPDIR/$held"
-$own --threads 1 --command data/examples/two_storey_frame.py --output after.csv
-check "which is removed afterwards" test "$(ls "$TMPDIR")" = log-likelihood-abcdeg
-rm -r "$TMPDIR/log-likelihood-abcdeg"
-
 # A grandchild that outlives the program and holds its standard error does not hold up the run.
 script "sleep 64 & exec \"$MODEL\" \"\$@\""
 check "a grandchild holds up nothing" timeout 60 bash -c "$own --threads 1 --command ./program.sh --output held.csv 2>&1 | cat"

@@ -17,7 +17,6 @@
 
 #include "archive/checkpoint.hpp"
 #include "distributed/share.hpp"
-#include "io/signals.hpp"
 #include "tmcmc/problems.hpp"
 
 namespace {
@@ -69,7 +68,6 @@ int main(int argc, char** argv) {
   const std::string moves = argv[1];
   const std::string output = argv[3];
   const std::filesystem::path checkpoint = argv[4];
-  io::end_cleanly_on_signals("shared_run");
   Model model(argv[2], ranks.rank());
   const tmcmc::Problem ridge = problems::ridge();
   const tmcmc::Problem problem{
