@@ -1,6 +1,7 @@
 #include <omp.h>
 
 #include "command_line.hpp"
+#include "io/interrupt.hpp"
 
 namespace experiments {
 
@@ -37,6 +38,7 @@ replication::Reading PhysicsOptions::reading() const {
 }
 
 void TableOptions::add_to(Program& program) {
+  draws.interrupt = io::stop_if_interrupted;
   program.add_number("--tables", draws.tables, count(100),
                      "Tables of iteration counts that are drawn for each p-value");
 }

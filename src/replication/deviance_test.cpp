@@ -148,11 +148,18 @@ class DevianceNull {
     return row;
   }
 
+  void look_for_interrupt() const {
+    if (options_.interrupt) {
+      options_.interrupt();
+    }
+  }
+
   /// Tables that were drawn before count again: few differ.
   void draw_tables() {
     std::map<std::vector<Row>, std::int64_t> frequency;
     std::vector<Row> tables(table_runs_.size());
     for (int i = 0; i < options_.tables; ++i) {
+      look_for_interrupt();
       for (std::size_t t = 0; t < tables.size(); ++t) {
         tables[t].assign(categories_.size(), 0);
         null_[source(t)].draw(tables[t], table_runs_[t], stream(),
@@ -213,6 +220,7 @@ class DevianceNull {
   [[nodiscard]] std::vector<double> resampled() const {
     std::vector<double> p;
     for (int round = 1; round <= options_.resamples; ++round) {
+      look_for_interrupt();
       std::vector<Multinomial> again;
       for (std::size_t s = 0; s < runs_.size(); ++s) {
         Row row(categories_.size(), 0);

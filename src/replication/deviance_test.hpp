@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "replication/counts.hpp"
@@ -16,6 +17,8 @@ struct TableDraws {
   int tables = 200000;     ///< simulated tables
   int resamples = 100;     ///< of the replicated runs, at least 2: what their finite number adds to the error
   std::uint64_t seed = 1;  ///< stream of its own (Purpose::statistics): not that of any study
+  /// If set, called before each table and each resample; what it throws ends the test.
+  std::function<void()> interrupt = {};
 };
 
 /// A deviance in its null distribution.
