@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "friction/angle.hpp"
 #include "inputs.hpp"
 
 using namespace experiments;
@@ -93,6 +94,12 @@ void judge(std::vector<Cell>& cells, const std::vector<replication::StudySummary
       cell.verdict = replication::name_of(verdicts.counts->number);
     }
   }
+}
+
+/// Ours minus printed; of angles the shortest way.
+double difference(const Cell& cell) {
+  return cell.column == "phase_deg" ? friction::angle_residual_deg(cell.ours, cell.printed)
+                                    : cell.ours - cell.printed;
 }
 
 std::string blank_if_nan(double value, const char* format) {
@@ -202,10 +209,10 @@ int main(int argc, char** argv) {
           std::isnan(cell.p.value) ? ""
                                    : fmt::format("{:.4g} to {:.4g}", cell.interval.low, cell.interval.high);
       program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g} {:>22} {:>8}  {}\n", cell.row,
-                     cell.column, cell.printed, cell.ours, cell.ours - cell.printed, interval,
+                     cell.column, cell.printed, cell.ours, difference(cell), interval,
                      blank_if_nan(cell.p.value, "{:.2g}"), cell.verdict);
       if (csv) {
-        csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, cell.ours - cell.printed,
+        csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, difference(cell),
                  cell.interval.low, cell.interval.high, cell.p.value, cell.p.standard_error, cell.verdict);
       }
     }

@@ -229,19 +229,27 @@ int main(int argc, char** argv) {
       std::vector<std::string> quantiles(quantile_levels.size());
       std::transform(quantile_levels.begin(), quantile_levels.end(), quantiles.begin(),
                      [&](double level) { return digits(exact.quantile(level)); });
-      program.report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13.5f}\n",
+      program.report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13}\n",
                      parameter_columns[p], exact.mean(), exact.standard_deviation(), exact.quantile(0.025),
                      exact.quantile(0.5), exact.quantile(0.975),
-                     fmt::format("{:.5f} +- {:.5f}", laplace.mode[p], laplace.standard_deviation[p]),
-                     least_squares[p]);
+                     fmt::format("{} +- {}", or_undefined("{:.5f}", laplace.mode[p]),
+                                 or_undefined("{:.5f}", laplace.standard_deviation[p])),
+                     or_undefined("{:.5f}", least_squares[p]));
       if (csv) {
         csv->row(parameter_columns[p], digits(exact.mean()), digits(exact.standard_deviation()), quantiles,
                  digits(laplace.mode[p], 8), digits(laplace.standard_deviation[p], 8),
                  digits(least_squares[p], 8));
       }
     }
-    program.report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {:.3f}\n",
-                   posterior.log_evidence(), std::max(error, 1e-12), laplace.log_evidence);
+    program.report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {}\n",
+                   posterior.log_evidence(), std::max(error, 1e-12),
+                   or_undefined("{:.3f}", laplace.log_evidence));
+    for (const auto* block : {&fit.friction_force, &fit.natural_frequency}) {
+      if (block->fitted_noise != estimation::FittedNoise::determined) {
+        program.report("least squares of {}: the noise is undefined: {}\n",
+                       block == &fit.friction_force ? "F_mu" : "omega_n", describe(block->fitted_noise));
+      }
+    }
     program.report("P(F_mu > {} N) = {:.4g}\n", threshold, exceedance);
     if (summary) {
       summary->row("log_evidence", digits(posterior.log_evidence()));

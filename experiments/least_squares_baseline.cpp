@@ -14,14 +14,18 @@ using namespace experiments;
 namespace {
 
 void report(const Program& program, const char* name, const char* unit, const estimation::BlockFit& fit) {
-  program.report("{} = {:.6g} {} +- {:.3g} (noise as given, {:.4g}) +- {:.3g} (noise as fitted, {:.4g})\n",
-                 name, fit.estimate, unit, fit.standard_error, fit.noise_given, fit.standard_error_ml,
-                 fit.noise_ml);
-  program.report(
-      "  chi^2 = {:.3f} on {} observations, reduced {:.3f}; {} iterations; {} of {} starts agree, {} {}{}\n",
-      fit.chi_squared, fit.residuals.size(), fit.reduced_chi_squared, fit.iterations, fit.agreed, fit.starts,
-      fit.distinct_minima, fit.distinct_minima == 1 ? "minimum" : "local minima",
-      fit.at_bound ? "; AT A BOUND" : "");
+  program.report("{} = {:.6g} {} +- {} (noise as given, {:.4g}) +- {} (noise as fitted, {})\n", name,
+                 fit.estimate, unit, or_undefined("{:.3g}", fit.standard_error), fit.noise_given,
+                 or_undefined("{:.3g}", fit.standard_error_ml), or_undefined("{:.4g}", fit.noise_ml));
+  if (fit.fitted_noise != estimation::FittedNoise::determined) {
+    program.report("  the fitted noise is undefined: {}\n", describe(fit.fitted_noise));
+  }
+  program.report("  chi^2 = {:.3f} on {} {}, reduced {}; {} iterations; {} of {} starts agree, {} {}{}\n",
+                 fit.chi_squared, fit.residuals.size(),
+                 fit.residuals.size() == 1 ? "observation" : "observations",
+                 or_undefined("{:.3f}", fit.reduced_chi_squared), fit.iterations, fit.agreed, fit.starts,
+                 fit.distinct_minima, fit.distinct_minima == 1 ? "minimum" : "local minima",
+                 fit.at_bound ? "; AT A BOUND" : "");
 }
 
 }  // namespace
@@ -60,7 +64,7 @@ int main(int argc, char** argv) {
     const auto fit = estimation::fit_least_squares(observations, reading.physics, options);
     report(program, "F_mu", "N", fit.friction_force);
     report(program, "omega_n", "Hz", fit.natural_frequency);
-    program.report("largest log-likelihood {:.4f}\n", fit.log_likelihood());
+    program.report("largest log-likelihood {}\n", or_undefined("{:.4f}", fit.log_likelihood()));
     const double n = static_cast<double>(observations.size());
     const auto write = [&](const std::string& location, const std::string& noise,
                            const estimation::BlockFit& block) {

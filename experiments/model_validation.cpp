@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 
+#include "friction/angle.hpp"
 #include "friction/time_integration.hpp"
 #include "inputs.hpp"
 #include "portable_math/elementary.hpp"
@@ -130,7 +131,8 @@ double misfit_with_stick_slip(const friction::Observations& observations,
         phi <= constants[i].limit_force_ratio
             ? friction::phase_deg(constants[i], phi)
             : friction::integrate_steady_response(constants[i].frequency_ratio, phi).phase_deg;
-    sum += (observations.phase_deg[i] - phase) * (observations.phase_deg[i] - phase);
+    const double residual = friction::angle_residual_deg(observations.phase_deg[i], phase);
+    sum += residual * residual;
   }
   return sum;
 }

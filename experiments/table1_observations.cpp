@@ -29,22 +29,27 @@ void report_rows(const Program& program, const replication::Audit& a, const repl
 void report_parameter(const Program& program, const char* name, const char* unit,
                       const replication::ParameterAudit& a) {
   const auto interval = [&](const replication::ConfidenceInterval& i) {
-    return fmt::format("[{:.5g}, {:.5g}]{}", i.lower, i.upper,
-                       i.lower_at_bound || i.upper_at_bound ? " up to a bound" : "");
+    return std::isnan(i.lower) ? "undefined"
+                               : fmt::format("[{:.5g}, {:.5g}]{}", i.lower, i.upper,
+                                             i.lower_at_bound || i.upper_at_bound ? " up to a bound" : "");
   };
-  program.report("{} = {:.5g} {} (least squares), chi^2 = {:.1f}, p = {:.2g}\n", name, a.estimate, unit,
-                 a.chi_squared, a.chi_squared_p);
-  program.report("  95 % interval {} with noise {} as stated, {} with noise unknown ({:.4g})\n",
-                 interval(a.noise_known_95), a.noise_stated, interval(a.noise_unknown_95), a.noise_unbiased);
+  program.report("{} = {:.5g} {} (least squares), chi^2 = {:.1f}, p = {}\n", name, a.estimate, unit,
+                 a.chi_squared, or_undefined("{:.2g}", a.chi_squared_p));
+  program.report("  95 % interval {} with noise {} as stated, {} with noise unknown ({})\n",
+                 interval(a.noise_known_95), a.noise_stated, interval(a.noise_unknown_95),
+                 or_undefined("{:.4g}", a.noise_unbiased));
+  if (a.fitted_noise != estimation::FittedNoise::determined) {
+    program.report("  the unknown noise is undefined: {}\n", describe(a.fitted_noise));
+  }
   for (const auto& t : a.tests) {
     if (std::isnan(t.chi_squared)) {
       program.report("  {} {}: the motion is not continuous at every observation\n", t.value, unit);
     } else {
       program.report(
           "  {} {}: chi^2 = {:.1f}, p = {:.2g}; likelihood ratio {:.2f}, p = {:.2g}; noise unknown F = "
-          "{:.2f}, p = {:.2g}\n",
+          "{}, p = {}\n",
           t.value, unit, t.chi_squared, t.chi_squared_p, t.likelihood_ratio, t.likelihood_ratio_p,
-          t.f_statistic, t.f_p);
+          or_undefined("{:.2f}", t.f_statistic), or_undefined("{:.2g}", t.f_p));
     }
   }
 }

@@ -41,9 +41,9 @@ int main(int argc, char** argv) {
         }
         count /= static_cast<double>(means.size());
         const auto m = replication::moments(means);
-        // The variance of the pooled posterior: within the runs and between them.
-        const double variance =
-            replication::moments(variances).mean + m.standard_deviation * m.standard_deviation;
+        // The variance of the pooled posterior: within the runs and, if there are two or more, between them.
+        const double between = means.size() > 1 ? m.standard_deviation * m.standard_deviation : 0.0;
+        const double variance = replication::moments(variances).mean + between;
         const double independent = std::sqrt(variance / count);
         const double effective = variance / (m.standard_deviation * m.standard_deviation);
         program.report("{:<12} {:<24} {:>10.5f} {:>15.6f} {:>13.5f} {:>17.6f} {:>14.1f}\n",

@@ -289,4 +289,8 @@ std::string digits(double value, int significant) {
   return std::isfinite(value) ? fmt::format("{:.{}g}", value, significant) : "nan";
 }
 
+std::string or_undefined(fmt::format_string<const double&> format, const double value) {
+  return std::isnan(value) ? "undefined" : fmt::format(format, value);
+}
+
 }  // namespace experiments

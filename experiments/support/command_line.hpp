@@ -123,6 +123,9 @@ class Program {
 /// functions; "nan" unless it is finite.
 [[nodiscard]] std::string digits(double value, int significant = 10);
 
+/// A number of a report in the format given; "undefined" for NaN.
+[[nodiscard]] std::string or_undefined(fmt::format_string<const double&> format, double value);
+
 /// --reading, the physics behind it option by option, --driving-force.
 struct PhysicsOptions {
   std::string reading_name = "as_published";

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "errors/invalid_value.hpp"
 #include "friction/response.hpp"
 
 namespace experiments {
@@ -124,6 +125,10 @@ friction::Observations read_observations(const std::string& path) {
       table.fail(row, "phase_deg", "an angle between -360 and 360 degrees");
     }
   }
+  const std::string doubt = friction::doubtful_unit_or_sign(o.phase_deg);
+  if (!doubt.empty()) {
+    fmt::print(stderr, "warning: {}: column 'phase_deg': {}\n", io::printable(path, 200), doubt);
+  }
   return o;
 }
 
@@ -200,10 +205,8 @@ estimation::ExactPosterior exact_posterior_for(const InputFiles& inputs,
                                                const tmcmc::BoxPrior& prior) {
   try {
     return {likelihood, bounds_of(prior)};
-  } catch (const std::invalid_argument& error) {
-    fail_prior(inputs.prior.empty() ? published("table2_prior.csv") : inputs.prior, error.what());
-  } catch (const std::domain_error& error) {
-    if (inputs.prior.empty()) {
+  } catch (const errors::InvalidValue& error) {
+    if (inputs.prior.empty()) {  // Table 2 is valid: the observations leave no feasible force inside it
       throw io::InputError(fmt::format("{}: {}", inputs.observations, error.what()));
     }
     fail_prior(inputs.prior, error.what());

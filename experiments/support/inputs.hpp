@@ -81,7 +81,8 @@ void require_once(const io::CsvTable& table, const std::vector<Key>& keys, std::
 void require_runs_once(const io::CsvTable& table);
 
 /// Measurements in the columns of table1_observations.csv: r_nominal, r_measured, driving_frequency_hz,
-/// phase_deg. \throws io::InputError naming file, line, column and value.
+/// phase_deg. Warns on stderr of phases whose unit or sign is doubtful.
+/// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
 
 /// Uniform prior in the form of table2_prior.csv: one row a parameter, columns parameter, lower, upper.

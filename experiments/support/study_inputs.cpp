@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "errors/invalid_value.hpp"
 #include "inputs.hpp"
 
 namespace experiments {
@@ -111,8 +112,8 @@ std::vector<replication::StudySummary> read_studies(const std::string& path) {
     s.log_evidence_sd = evidence_sd[row];
     try {
       s.iterations = replication::parse_iterations(iterations[row]);
-    } catch (const std::invalid_argument& error) {
-      table.fail(row, "iterations", expectation(error.what()));
+    } catch (const errors::InvalidValue& error) {
+      table.fail(row, "iterations", error.expected());
     }
   }
   const auto any_numbers = [](const io::CsvTable& from, std::string_view column) {

@@ -2,8 +2,10 @@
 /// The exception for a value that is refused: which field, which value, what was expected.
 #pragma once
 
+#include <charconv>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace errors {
@@ -21,6 +23,11 @@ class InvalidValue : public std::invalid_argument {
         value_(std::move(value)),
         expected_(std::move(expected)) {}
 
+  /// The same for a number, written with the fewest digits from which it can be read back.
+  template <class Number>
+  requires std::is_arithmetic_v<Number> InvalidValue(std::string field, Number value, std::string expected)
+      : InvalidValue(std::move(field), text_of(value), std::move(expected)) {}
+
   /// Name of the field, as the library calls it.
   [[nodiscard]] const std::string& field() const noexcept { return field_; }
   /// The value as text; empty if there is none.
@@ -29,6 +36,13 @@ class InvalidValue : public std::invalid_argument {
   [[nodiscard]] const std::string& expected() const noexcept { return expected_; }
 
  private:
+  template <class Number>
+  static std::string text_of(Number value) {
+    char digits[32];
+    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
+    return error == std::errc() ? std::string(digits, end) : std::to_string(value);
+  }
+
   std::string field_;
   std::string value_;
   std::string expected_;

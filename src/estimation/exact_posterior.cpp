@@ -6,9 +6,9 @@
 #include <functional>
 #include <limits>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
 
+#include "errors/invalid_value.hpp"
 #include "estimation/graded_mesh.hpp"
 #include "portable_math/elementary.hpp"
 #include "portable_math/sums.hpp"
@@ -23,9 +23,9 @@ using portable_math::log;
 template <class Value>
 void require_range(const char* field, Value value, Value low, Value high) {
   if (!(value >= low && value <= high)) {
-    std::ostringstream message;
-    message << field << " = " << value << ": expected a number from " << low << " to " << high;
-    throw std::invalid_argument(message.str());
+    std::ostringstream range;
+    range << "a number from " << low << " to " << high;
+    throw errors::InvalidValue(field, value, range.str());
   }
 }
 
@@ -104,10 +104,9 @@ Interval feasible(const Interval& prior, const friction::Likelihood& likelihood)
   const double limit =
       likelihood.limit_friction_force_n() * (1.0 - 4.0 * std::numeric_limits<double>::epsilon());
   if (!(prior.lower < limit)) {
-    std::ostringstream message;
-    message << "friction_force.lower = " << prior.lower << ": expected less than " << limit
-            << " N, the limit of continuous motion";
-    throw std::domain_error(message.str());
+    std::ostringstream expected;
+    expected << "less than " << limit << " N, the limit of continuous motion";
+    throw errors::InvalidValue("friction_force.lower", prior.lower, expected.str());
   }
   return {prior.lower, std::min(prior.upper, limit)};
 }
@@ -207,12 +206,12 @@ const TabulatedDensity& ExactPosterior::marginal(friction::Parameter parameter) 
     case friction::parameter_count:
       break;
   }
-  throw std::invalid_argument("marginal: not a parameter");
+  throw errors::InvalidValue("parameter", static_cast<int>(parameter), "one of the four parameters");
 }
 
 std::size_t ExactPosterior::mode_count(friction::Parameter location) const {
   if (location != friction::friction_force && location != friction::natural_frequency) {
-    throw std::invalid_argument("mode_count: expected friction_force or natural_frequency");
+    throw errors::InvalidValue("location", name_of(location), "friction_force or natural_frequency");
   }
   return location == friction::friction_force ? phase_.modes : frequency_.modes;
 }

@@ -25,7 +25,7 @@ struct ExactPosteriorOptions {
   /// Largest number of panels of one marginal; from 16 to 1e6.
   int max_panels = 4000;
 
-  /// \throws std::invalid_argument naming field, value and constraint.
+  /// \throws errors::InvalidValue if a field is out of its range.
   void validate() const;
 };
 
@@ -45,8 +45,8 @@ struct ExactPosteriorOptions {
 class ExactPosterior {
  public:
   /// Time: about 1e4 evaluations of the misfit.
-  /// \throws std::invalid_argument for invalid bounds or options; std::domain_error if no friction force
-  ///         inside the bounds is feasible, so that the evidence is 0; IntegrationError, naming the
+  /// \throws errors::InvalidValue for invalid bounds or options, and of friction_force.lower if no friction
+  ///         force inside the bounds is feasible, so that the evidence is 0; IntegrationError, naming the
   ///         parameter, if relative_tolerance is not met.
   ExactPosterior(const friction::Likelihood& likelihood, const ParameterBounds& bounds,
                  const ExactPosteriorOptions& options = {});
@@ -61,7 +61,7 @@ class ExactPosterior {
   [[nodiscard]] const TabulatedDensity& marginal(friction::Parameter parameter) const;
 
   /// Number of local minima of the misfit in F_mu or omega_n within the bounds, ends included.
-  /// \throws std::invalid_argument for a noise level.
+  /// \throws errors::InvalidValue for a noise level.
   [[nodiscard]] std::size_t mode_count(friction::Parameter location) const;
 
   /// The point of the posterior that belongs to four independent uniform numbers in (0, 1), in the order of

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "friction/angle.hpp"
+
 namespace estimation {
 
 namespace {
@@ -48,7 +50,8 @@ LaplaceApproximation laplace_approximation(const friction::Observations& observa
         using T = std::decay_t<decltype(x)>;
         const auto constants = friction::response_constants(observations.measured_ratio[i], physics);
         const T force_ratio = x / physics.driving_force_n;
-        return T(observations.phase_deg[i] - friction::phase_deg(constants, force_ratio));
+        return T(friction::angle_residual_deg(observations.phase_deg[i],
+                                              friction::phase_deg(constants, force_ratio)));
       });
   const double ratio_curvature =
       misfit_curvature(count, result.mode[friction::natural_frequency], [&](std::size_t i, const auto& x) {

@@ -14,7 +14,7 @@ namespace estimation {
 /// Normal approximation at the mode; arrays in the order and the units of friction::Parameter.
 struct LaplaceApproximation {
   /// Whether the mode is a regular maximum inside the bounds and below the limit of continuous motion, with
-  /// noise levels above 0. If not, standard_deviation and log_evidence are NaN.
+  /// noise levels that the observations determine (BlockFit::fitted_noise). If not, standard_deviation and log_evidence are NaN.
   bool regular = false;
   std::array<double, friction::parameter_count> mode{};                ///< maximum of the likelihood
   std::array<double, friction::parameter_count> standard_deviation{};  ///< H_ii^(-1/2)
@@ -31,7 +31,7 @@ struct LaplaceApproximation {
 /// deviations are H_ii^(-1/2) and the log-evidence is log L + 2 log(2 pi) - 1/2 log det H - log(prior volume).
 /// The error of the evidence is of order 1/n.
 /// \param fit  fit_least_squares of the same observations and physics
-/// \throws std::invalid_argument for invalid bounds, observations or physics.
+/// \throws errors::InvalidValue for invalid bounds, observations or physics.
 [[nodiscard]] LaplaceApproximation laplace_approximation(const friction::Observations& observations,
                                                          const friction::Physics& physics,
                                                          const LeastSquaresFit& fit,

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "errors/invalid_value.hpp"
+#include "friction/angle.hpp"
 #include "friction/likelihood.hpp"
 
 namespace estimation {
@@ -21,9 +22,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 template <class Value>
 void require(bool condition, const char* field, Value value, const char* expected) {
   if (!condition) {
-    std::ostringstream message;
-    message << field << " = " << value << ": expected " << expected;
-    throw std::invalid_argument(message.str());
+    throw errors::InvalidValue(field, value, expected);
   }
 }
 
@@ -36,7 +35,8 @@ struct PhaseResidual {
   template <class T>
   bool operator()(const T* friction_force_n, T* residual) const {
     const T force_ratio = *friction_force_n / driving_force_n;
-    *residual = (observed_deg - friction::phase_deg(constants, force_ratio)) / noise_deg;
+    *residual =
+        friction::angle_residual_deg(observed_deg, friction::phase_deg(constants, force_ratio)) / noise_deg;
     return true;
   }
 };
@@ -114,9 +114,13 @@ Minimum minimise(OneParameterProblem& block, double start, int max_iterations, b
   return {block.x, summary.final_cost, static_cast<int>(summary.iterations.size()) - 1, summary.message};
 }
 
+/// Relative error of an estimate: residuals below this fraction of the observed values are rounding.
+constexpr double estimate_error = 1e-9;
+
 /// Everything but the observations' own quantities: minimum over the starts, bookkeeping, standard error.
-BlockFit solve(OneParameterProblem& block, double lower, double upper, double noise, std::size_t count,
-               const char* name, const LeastSquaresOptions& options) {
+BlockFit solve(OneParameterProblem& block, double lower, double upper, double noise,
+               const std::vector<double>& observed, const char* name, const LeastSquaresOptions& options) {
+  const std::size_t count = observed.size();
   BlockFit fit;
   fit.lower = lower;
   fit.upper = upper;
@@ -159,7 +163,15 @@ BlockFit solve(OneParameterProblem& block, double lower, double upper, double no
     fit.sum_of_squares += residual * residual;
   }
   const auto n = static_cast<double>(count);
-  fit.noise_ml = std::sqrt(fit.sum_of_squares / n);
+  const double residual = std::sqrt(fit.sum_of_squares / n);
+  double largest = 0.0;
+  for (const double value : observed) {
+    largest = std::max(largest, std::fabs(value));
+  }
+  fit.fitted_noise = count == 1                             ? FittedNoise::one_observation
+                     : residual <= estimate_error * largest ? FittedNoise::perfect_fit
+                                                            : FittedNoise::determined;
+  fit.noise_ml = fit.fitted_noise == FittedNoise::determined ? residual : not_a_number;
   fit.standard_error = block.standard_error();
   fit.standard_error_ml = fit.standard_error * (fit.noise_ml / noise);
   fit.chi_squared = fit.sum_of_squares / (noise * noise);
@@ -169,6 +181,18 @@ BlockFit solve(OneParameterProblem& block, double lower, double upper, double no
 }
 
 }  // namespace
+
+const char* describe(FittedNoise noise) {
+  switch (noise) {
+    case FittedNoise::determined:
+      return "determined by the residuals";
+    case FittedNoise::one_observation:
+      return "one observation determines either the estimate or the noise, not both";
+    case FittedNoise::perfect_fit:
+      return "the residuals are 0 to rounding, so that the likelihood has no maximum";
+  }
+  return "";
+}
 
 void LeastSquaresOptions::validate() const {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
@@ -196,7 +220,8 @@ LeastSquaresFit fit_least_squares(const friction::Observations& observations,
   // A few roundings below the limit: the force is divided by the driving force and compared again.
   const double limit =
       likelihood.limit_friction_force_n() * (1.0 - 4.0 * std::numeric_limits<double>::epsilon());
-  fit.friction_force = solve(phase, 0.0, limit, options.phase_noise_deg, count, "friction_force", options);
+  fit.friction_force =
+      solve(phase, 0.0, limit, options.phase_noise_deg, observations.phase_deg, "friction_force", options);
 
   OneParameterProblem ratio;
   double least = std::numeric_limits<double>::infinity();
@@ -207,8 +232,8 @@ LeastSquaresFit fit_least_squares(const friction::Observations& observations,
     least = std::min(least, omega_b / observations.nominal_ratio[i]);
     largest = std::max(largest, omega_b / observations.nominal_ratio[i]);
   }
-  fit.natural_frequency = solve(ratio, 0.5 * least, 2.0 * largest, options.frequency_ratio_noise, count,
-                                "natural_frequency", options);
+  fit.natural_frequency = solve(ratio, 0.5 * least, 2.0 * largest, options.frequency_ratio_noise,
+                                observations.nominal_ratio, "natural_frequency", options);
   return fit;
 }
 

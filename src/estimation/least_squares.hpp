@@ -20,9 +20,19 @@ struct LeastSquaresOptions {
   double agreement_tolerance = 1e-7;
   int max_iterations = 200;  ///< of one start, at least 1
 
-  /// \throws std::invalid_argument naming field, value and constraint.
+  /// \throws errors::InvalidValue if a field is out of its range.
   void validate() const;
 };
+
+/// Whether the residuals of a fit determine a noise level.
+enum class FittedNoise {
+  determined,       ///< sqrt(SS / n)
+  one_observation,  ///< n = 1: the estimate takes the only degree of freedom
+  perfect_fit  ///< sqrt(SS / n) is at most 1e-9 of the largest observed value, the error of the estimate itself
+};
+
+/// Why a noise level is determined or not, as a part of a sentence.
+[[nodiscard]] const char* describe(FittedNoise noise);
 
 /// One weighted fit of n residuals with one unknown x, in N or Hz; residuals in deg or dimensionless.
 struct BlockFit {
@@ -31,17 +41,19 @@ struct BlockFit {
   double upper = 0.0;     ///< likewise
   bool at_bound = false;  ///< within agreement_tolerance: the standard errors then mean little
 
-  std::vector<double> residuals;  ///< observed minus model, unweighted
-  double sum_of_squares = 0.0;    ///< SS
-  double noise_given = 0.0;       ///< sigma of the options
-  double noise_ml = 0.0;          ///< sqrt(SS / n), the maximum-likelihood sigma
+  std::vector<double> residuals;                       ///< observed minus model, unweighted
+  double sum_of_squares = 0.0;                         ///< SS
+  double noise_given = 0.0;                            ///< sigma of the options
+  FittedNoise fitted_noise = FittedNoise::determined;  ///< if it is not determined, what rests on it is NaN
+  /// sqrt(SS / n), the maximum-likelihood sigma; NaN unless it is determined.
+  double noise_ml = 0.0;
   /// Standard error of the estimate from ceres::Covariance (Gauss-Newton, bounds ignored) with noise_given and
   /// with noise_ml; NaN if the model does not depend on x at the estimate.
   double standard_error = 0.0;
-  double standard_error_ml = 0.0;    ///< with noise_ml
+  double standard_error_ml = 0.0;    ///< with noise_ml; NaN where that is
   double chi_squared = 0.0;          ///< SS / noise_given^2
   double reduced_chi_squared = 0.0;  ///< chi_squared / (n - 1); NaN for n = 1
-  /// -n/2 (log(2 pi noise_ml^2) + 1), the part of the log-likelihood at its maximum; +inf if SS = 0.
+  /// -n/2 (log(2 pi noise_ml^2) + 1), the part of the log-likelihood at its maximum; NaN where noise_ml is.
   double log_likelihood = 0.0;
 
   int starts = 0;           ///< starts that were run
@@ -57,7 +69,7 @@ struct LeastSquaresFit {
   BlockFit friction_force;     ///< F_mu, N, and sigma_phase
   BlockFit natural_frequency;  ///< omega_n, Hz, and sigma_r
 
-  /// Of Eq. 24 at its maximum over all four parameters.
+  /// Of Eq. 24 at its maximum over all four parameters; NaN unless both noise levels are determined.
   [[nodiscard]] double log_likelihood() const {
     return friction_force.log_likelihood + natural_frequency.log_likelihood;
   }
@@ -72,7 +84,7 @@ struct LeastSquaresFit {
 /// the limit being the smallest of the observations and the second interval holding the minimiser for any data.
 /// The estimates do not depend on the noise levels and are accurate to about 1e-9 relative, as far as the
 /// minimum is well conditioned; their last digits depend on the C library. Writes nothing to the streams.
-/// \throws std::invalid_argument for invalid observations, physics or options; std::runtime_error if no start
+/// \throws errors::InvalidValue for invalid observations, physics or options; std::runtime_error if no start
 ///         converges.
 [[nodiscard]] LeastSquaresFit fit_least_squares(const friction::Observations& observations,
                                                 const friction::Physics& physics,

@@ -1,9 +1,9 @@
 #include "estimation/parameter_bounds.hpp"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+#include <string>
 
+#include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace estimation {
@@ -12,10 +12,8 @@ namespace {
 
 void require(bool condition, int parameter, const char* side, double value, const char* expected) {
   if (!condition) {
-    std::ostringstream message;
-    message << name_of(static_cast<friction::Parameter>(parameter)) << '.' << side << " = " << value
-            << ": expected " << expected;
-    throw std::invalid_argument(message.str());
+    throw errors::InvalidValue(std::string(name_of(static_cast<friction::Parameter>(parameter))) + '.' + side,
+                               value, expected);
   }
 }
 

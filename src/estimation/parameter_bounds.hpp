@@ -22,7 +22,7 @@ struct Interval {
 /// One interval a parameter, in the order and the units of friction::Parameter.
 using ParameterBounds = std::array<Interval, friction::parameter_count>;
 
-/// \throws std::invalid_argument naming parameter, value and constraint unless all bounds are finite, lower
+/// \throws errors::InvalidValue, whose field is such as "friction_force.lower", unless all bounds are finite, lower
 ///         is less than upper, the friction force is not negative, and natural frequency and noise levels are
 ///         positive.
 void validate(const ParameterBounds& bounds);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace estimation {
@@ -310,8 +311,7 @@ double TabulatedDensity::quantile_of_log_exceedance(double log_q) const {
 
 double TabulatedDensity::quantile(double p) const {
   if (!(p >= 0.0 && p <= 1.0)) {
-    throw std::invalid_argument(name_ + " quantile: p = " + std::to_string(p) +
-                                ": expected a number from 0 to 1");
+    throw errors::InvalidValue("p of " + name_, p, "a number from 0 to 1");
   }
   return p < 0.5 ? quantile_of_log_cdf(portable_math::log(p))
                  : quantile_of_log_exceedance(portable_math::log(1.0 - p));

@@ -49,7 +49,7 @@ class TabulatedDensity {
   [[nodiscard]] double density(double x) const;     ///< in 1/[x]; 0 outside the support
   [[nodiscard]] double cdf(double x) const;         ///< P(X <= x)
   [[nodiscard]] double exceedance(double x) const;  ///< P(X > x), not by subtraction from 1
-  /// The x with cdf(x) = p. \throws std::invalid_argument unless 0 <= p <= 1.
+  /// The x with cdf(x) = p. \throws errors::InvalidValue unless 0 <= p <= 1.
   [[nodiscard]] double quantile(double p) const;
   [[nodiscard]] double mean() const { return mean_; }  ///< of the tabulated density
   [[nodiscard]] double standard_deviation() const { return standard_deviation_; }  ///< of the same

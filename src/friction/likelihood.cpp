@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
-#include <string>
 
+#include "errors/invalid_value.hpp"
+#include "friction/angle.hpp"
 #include "portable_math/multiversion.hpp"
 
 namespace friction {
@@ -33,7 +33,7 @@ void add_squared_residuals(const ResponseConstants& c, double observed_deg, cons
   for (std::size_t i = 0; i < force_ratio.size(); ++i) {
     const double phase =
         portable_math::polar_angle(imaginary_part[i], real_part[i]) * (180.0 / std::numbers::pi);
-    const double residual = observed_deg - phase;
+    const double residual = angle_residual_deg(observed_deg, phase);
     sum[i] += residual * residual;
   }
 }
@@ -48,8 +48,7 @@ Likelihood::Likelihood(const Observations& observations, const Physics& physics,
       limit_force_ratio_(std::numeric_limits<double>::infinity()) {
   observations.validate();
   if (!(physics.driving_force_n > 0.0) || !std::isfinite(physics.driving_force_n)) {
-    throw std::invalid_argument("driving_force_n = " + std::to_string(physics.driving_force_n) +
-                                ": expected a positive finite number");
+    throw errors::InvalidValue("driving_force_n", physics.driving_force_n, "a positive finite number");
   }
   double squares = 0.0;
   double products = 0.0;
@@ -73,7 +72,7 @@ Likelihood::Likelihood(const Observations& observations, const Physics& physics,
 void Likelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                             Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
   if (points.cols() != parameter_count || log_likelihood.size() != points.rows()) {
-    throw std::invalid_argument("friction::Likelihood: expected n x 4 points and n results");
+    throw errors::InvalidValue("friction::Likelihood", "", "n x 4 points and n results");
   }
   const double count = static_cast<double>(constants_.size());
   const double constant = -count * 1.8378770664093453;  // log(2 pi)
@@ -106,7 +105,8 @@ void Likelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
 double Likelihood::phase_misfit(double friction_force_n) const {
   double sum = 0.0;
   for (std::size_t j = 0; j < constants_.size(); ++j) {
-    const double residual = phase_deg_[j] - phase_deg(constants_[j], friction_force_n / driving_force_n_);
+    const double residual =
+        angle_residual_deg(phase_deg_[j], phase_deg(constants_[j], friction_force_n / driving_force_n_));
     sum += residual * residual;
   }
   return sum;

@@ -22,23 +22,25 @@ enum Parameter : int {
 
 /// Batch log-likelihood of Eq. 24. It factorises into a part of (F_mu, sigma_phase) and one of
 /// (omega_n, sigma_r); sums over the observations that no parameter enters are taken once, at construction.
+/// The residual of a phase is that of an angle (angle_residual_deg). It is given a Normal density, which is that of an
+/// angle as long as sigma_phase is small against a half turn.
 /// Calls are const and may run at the same time.
 class Likelihood {
  public:
   /// \param infeasible_log_likelihood  value where some observation's motion is not continuous: minus infinity,
   ///        or the penalty -1e10 of the published scripts.
-  /// \throws std::invalid_argument for invalid observations or physics.
+  /// \throws errors::InvalidValue for invalid observations or physics.
   Likelihood(const Observations& observations, const Physics& physics,
              double infeasible_log_likelihood = -std::numeric_limits<double>::infinity());
 
   /// Log-likelihood of each point, in natural units (normalised densities).
   /// \param points  n x 4, one column a parameter in the order of Parameter, noise levels and frequency positive
   /// \param log_likelihood  n values, overwritten
-  /// \throws std::invalid_argument if the shapes do not fit.
+  /// \throws errors::InvalidValue if the shapes do not fit.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 
-  /// Sum of squared phase residuals, deg^2; NaN where the motion is not continuous.
+  /// Sum of squared phase residuals (angle_residual_deg), deg^2; NaN where the motion is not continuous.
   [[nodiscard]] double phase_misfit(double friction_force_n) const;
 
   /// Sum of squared residuals of the nominal frequency ratio.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace friction {
@@ -12,15 +13,19 @@ struct Observations {
   std::vector<double> nominal_ratio;         ///< r_nom, commanded frequency ratio
   std::vector<double> measured_ratio;        ///< r, enters the phase model
   std::vector<double> driving_frequency_hz;  ///< omega_b
-  std::vector<double> phase_deg;             ///< measured phase angle
+  std::vector<double> phase_deg;             ///< measured phase angle, positive where the response lags
 
   /// Number of data sets.
   [[nodiscard]] std::size_t size() const { return nominal_ratio.size(); }
 
-  /// \throws std::invalid_argument naming field, row (from 0) and value unless there is at least one row, all
-  ///        vectors have one length, ratios and frequencies are positive, phases finite, and no measured ratio
-  ///        singular.
+  /// \throws errors::InvalidValue naming field, row (from 0) and value unless there is at least one row, all
+  ///        vectors have one length, ratios and frequencies are positive, phases lie within a turn of 0
+  ///        (largest_phase_deg), and no measured ratio is singular.
   void validate() const;
 };
+
+/// What makes the unit or the sign of a column of three phases or more doubtful, and how it is taken: all of them within 2 pi
+/// of 0 look like radians, and all of them negative look like leads. Empty if nothing does.
+[[nodiscard]] std::string doubtful_unit_or_sign(const std::vector<double>& phase_deg);
 
 }  // namespace friction

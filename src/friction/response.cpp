@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <complex>
-#include <stdexcept>
-#include <string>
+
+#include "errors/invalid_value.hpp"
 
 namespace friction {
 
@@ -98,13 +98,11 @@ double response_function_s(double frequency_ratio, LimitRule rule) {
 ResponseConstants response_constants(double frequency_ratio, const Physics& physics) {
   const double r = frequency_ratio;
   if (!(r > 1e-4 && r < 1e6)) {
-    throw std::invalid_argument("frequency_ratio = " + std::to_string(r) +
-                                ": expected a ratio between 1e-4 and 1e6");
+    throw errors::InvalidValue("frequency_ratio", r, "a ratio between 1e-4 and 1e6");
   }
   if (is_singular_ratio(r)) {
-    throw std::invalid_argument(
-        "frequency_ratio = " + std::to_string(r) +
-        ": expected a ratio other than 1, 1/3, 1/5, ..., where the response is unbounded");
+    throw errors::InvalidValue("frequency_ratio", r,
+                               "a ratio other than 1, 1/3, 1/5, ..., where the response is unbounded");
   }
   ResponseConstants c{};
   c.frequency_ratio = r;

@@ -64,7 +64,7 @@ struct ResponseConstants {
 [[nodiscard]] double response_function_s(double frequency_ratio, LimitRule rule);
 
 /// Constants for one frequency ratio.
-/// \throws std::invalid_argument unless r lies between 1e-4 and 1e6 and is not singular.
+/// \throws errors::InvalidValue unless r lies between 1e-4 and 1e6 and is not singular.
 [[nodiscard]] ResponseConstants response_constants(double frequency_ratio, const Physics& physics);
 
 /// x(tau) of Eq. 15 over the whole period, tau in [0, 2 pi), for phi <= phi_lim.

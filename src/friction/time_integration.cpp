@@ -8,9 +8,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace friction {
@@ -22,10 +21,7 @@ using std::numbers::pi;
 
 template <class T>
 void require(bool valid, const char* field, T value, const char* expected) {
-  if (valid) return;
-  std::ostringstream message;
-  message << field << " = " << value << ": expected " << expected;
-  throw std::invalid_argument(message.str());
+  if (!valid) throw errors::InvalidValue(field, value, expected);
 }
 
 void validate(double frequency_ratio, double force_ratio, const TimeIntegrationOptions& options) {

@@ -46,7 +46,7 @@ struct HalfPeriod {
 /// \param frequency_ratio  r = omega_b / omega_n, from 1e-3 to 1e3
 /// \param force_ratio      phi = F_mu / (k Y_b), zero or more
 /// \param velocity         dx/dtau
-/// \throws std::invalid_argument for arguments or options out of range; the message names the field.
+/// \throws errors::InvalidValue for arguments or options out of range.
 [[nodiscard]] HalfPeriod integrate_half_period(double frequency_ratio, double force_ratio, double x,
                                                double velocity, const TimeIntegrationOptions& options = {});
 
@@ -84,7 +84,7 @@ struct SteadyResponse {
 /// inverse amplifies errors of rounding and of the integrator; periodicity_error includes the former.
 /// \param frequency_ratio  r = omega_b / omega_n, from 1e-3 to 1e3
 /// \param force_ratio      phi = F_mu / (k Y_b), zero or more
-/// \throws std::invalid_argument for arguments or options out of range; the message names the field.
+/// \throws errors::InvalidValue for arguments or options out of range.
 [[nodiscard]] SteadyResponse integrate_steady_response(double frequency_ratio, double force_ratio,
                                                        const TimeIntegrationOptions& options = {});
 

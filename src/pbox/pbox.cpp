@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <string>
 #include <utility>
+
+#include "errors/invalid_value.hpp"
 
 namespace pbox {
 namespace {
@@ -31,12 +33,28 @@ std::vector<Jump> sorted_jumps(std::span<const Ecdf> ecdfs) {
 
 void require_consistent(const PBox& box) {
   if (box.x.empty() || box.lower.size() != box.x.size() || box.upper.size() != box.x.size()) {
-    throw std::invalid_argument("pbox::PBox: expected x, lower and upper of the same length, at least 1");
+    throw errors::InvalidValue("pbox::PBox", "", "x, lower and upper of the same length, at least 1");
   }
 }
 
 void require_ecdfs(std::span<const Ecdf> ecdfs) {
-  if (ecdfs.empty()) throw std::invalid_argument("pbox: expected at least one ECDF");
+  if (ecdfs.empty()) throw errors::InvalidValue("ecdfs", "", "at least one");
+}
+
+/// The sum of height(i) * (right(i) - left(i)) over i, divided by n. A width or the sum may exceed the largest double where
+/// the result does not. They are then taken of samples that are 2^-shift as large, which is exact but for samples that are
+/// too small to count beside such widths.
+template <class Heights, class Lefts, class Rights>
+double mean_width(std::size_t terms, double n, Heights height, Lefts left, Rights right) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < terms; ++i) sum += height(i) * (right(i) - left(i));
+  if (std::isfinite(sum)) return sum / n;
+  constexpr int shift = 66;  // more than the number of bits of any sum of samples
+  double scaled = 0.0;
+  for (std::size_t i = 0; i < terms; ++i) {
+    scaled += height(i) * (std::ldexp(right(i), -shift) - std::ldexp(left(i), -shift));
+  }
+  return std::ldexp(scaled / n, shift);
 }
 
 double area_by_ranks(std::span<const Ecdf> ecdfs) {
@@ -50,17 +68,19 @@ double area_by_ranks(std::span<const Ecdf> ecdfs) {
       high[k] = std::max(high[k], x[k]);
     }
   }
-  double sum = 0.0;
-  for (std::size_t k = 0; k < low.size(); ++k) sum += high[k] - low[k];
-  return sum / static_cast<double>(low.size());
+  return mean_width(
+      low.size(), static_cast<double>(low.size()), [](std::size_t) { return 1.0; },
+      [&](std::size_t k) { return low[k]; }, [&](std::size_t k) { return high[k]; });
 }
 
 }  // namespace
 
 Ecdf::Ecdf(std::vector<double> samples) : sorted_(std::move(samples)) {
-  if (sorted_.empty()) throw std::invalid_argument("pbox::Ecdf: expected at least one sample");
-  if (!std::all_of(sorted_.begin(), sorted_.end(), [](double x) { return std::isfinite(x); })) {
-    throw std::invalid_argument("pbox::Ecdf: expected finite samples");
+  if (sorted_.empty()) throw errors::InvalidValue("samples", "", "at least one");
+  for (std::size_t i = 0; i < sorted_.size(); ++i) {
+    if (!std::isfinite(sorted_[i])) {
+      throw errors::InvalidValue("samples[" + std::to_string(i) + "]", sorted_[i], "a finite number");
+    }
   }
   std::sort(sorted_.begin(), sorted_.end());
 }
@@ -111,11 +131,9 @@ Bounds evaluate(const PBox& box, double x) {
 
 double area(const PBox& box) {
   require_consistent(box);
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < box.x.size(); ++i) {
-    sum += (box.upper[i] - box.lower[i]) * (box.x[i + 1] - box.x[i]);
-  }
-  return sum;
+  return mean_width(
+      box.x.size() - 1, 1.0, [&](std::size_t i) { return box.upper[i] - box.lower[i]; },
+      [&](std::size_t i) { return box.x[i]; }, [&](std::size_t i) { return box.x[i + 1]; });
 }
 
 double area_metric(std::span<const Ecdf> ecdfs) {

@@ -12,7 +12,7 @@ namespace pbox {
 /// Empirical cumulative distribution function of one sample, in the unit of the sample.
 class Ecdf {
  public:
-  /// Sorts the samples, O(n log n). Throws std::invalid_argument if there is none or one is not finite.
+  /// Sorts the samples, O(n log n). Throws errors::InvalidValue if there is none or one is not finite.
   explicit Ecdf(std::vector<double> samples);
 
   /// The fraction of the samples that are <= x: a step function, continuous from the right; NaN at NaN. O(log n).
@@ -43,14 +43,14 @@ struct Bounds {
 };
 
 /// The tightest p-box around the ECDFs; their sample sizes may differ. x holds every distinct sample.
-/// O(M log M) for M samples in total. Throws std::invalid_argument on an empty set.
+/// O(M log M) for M samples in total. Throws errors::InvalidValue on an empty set.
 PBox envelope(std::span<const Ecdf> ecdfs);
 
-/// The bounds at x; NaN at NaN. O(log n). Throws std::invalid_argument if the vectors are empty or differ in length.
+/// The bounds at x; NaN at NaN. O(log n). Throws errors::InvalidValue if the vectors are empty or differ in length.
 Bounds evaluate(const PBox& box, double x);
 
-/// The exact integral of (upper - lower) dx (Eq. 25), in the unit of x, summed in index order.
-/// Throws std::invalid_argument if the vectors are empty or differ in length.
+/// The exact integral of (upper - lower) dx (Eq. 25), in the unit of x, summed in index order; finite if the integral is.
+/// Throws errors::InvalidValue if the vectors are empty or differ in length.
 double area(const PBox& box);
 
 /// area(envelope(ecdfs)), in the unit of the samples; for two ECDFs their 1-Wasserstein distance.
@@ -59,8 +59,9 @@ double area(const PBox& box);
 ///     (1/n) * sum over ranks k of (max over r of x_r(k) - min over r of x_r(k)),
 ///
 /// with x_r(k) the k-th smallest sample of ECDF r, because the bounds of equal-size ECDFs are the ECDFs of
-/// the rank-wise extremes. The two ways agree to rounding, not to the last bit.
-/// Throws std::invalid_argument on an empty set.
+/// the rank-wise extremes. The two ways agree to rounding, not to the last bit. Finite
+/// if the area is, even where a width or the sum over the ranks exceeds the largest double.
+/// Throws errors::InvalidValue on an empty set.
 double area_metric(std::span<const Ecdf> ecdfs);
 
 }  // namespace pbox

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 namespace replication {
 
 namespace {
@@ -23,7 +23,7 @@ Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth) {
   const Eigen::Index d = truth.mean.size();
   if (runs.size() < 2 ||
       std::any_of(runs.begin(), runs.end(), [d](const Run& run) { return run.mean.size() != d; })) {
-    throw std::invalid_argument("accuracy: expected at least two runs, of as many parameters as are known");
+    throw errors::InvalidValue("runs", "", "at least two, of as many parameters as are known");
   }
   Accuracy result;
   const double count = static_cast<double>(runs.size());

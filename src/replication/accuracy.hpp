@@ -32,7 +32,7 @@ struct Accuracy {
   double warned = 0.0;  ///< fraction of the runs with a warning
 };
 
-/// \throws std::invalid_argument unless there are two runs or more, of as many parameters as are known.
+/// \throws errors::InvalidValue unless there are two runs or more, of as many parameters as are known.
 [[nodiscard]] Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth);
 
 /// A sampler of the comparison: what it varies against the published setting, and how far.

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "estimation/least_squares.hpp"
+#include "friction/angle.hpp"
 #include "friction/likelihood.hpp"
 
 namespace replication {
@@ -43,8 +44,12 @@ struct Block {
     return excess < 0.0 ? 0.0 : excess;  // rounding at the minimum; NaN passes
   }
 
+  [[nodiscard]] bool noise_is_determined() const {
+    return fit.fitted_noise == estimation::FittedNoise::determined;
+  }
+
   [[nodiscard]] double unbiased_variance() const {
-    return n > 1.0 ? fit.sum_of_squares / (n - 1.0) : not_a_number;
+    return noise_is_determined() ? fit.sum_of_squares / (n - 1.0) : not_a_number;
   }
 
   [[nodiscard]] PointTest test(double x) const {
@@ -56,7 +61,8 @@ struct Block {
     t.likelihood_ratio = above_minimum(x) / variance;
     t.likelihood_ratio_p = survival(boost::math::chi_squared(1.0), t.likelihood_ratio);
     t.f_statistic = above_minimum(x) / unbiased_variance();
-    t.f_p = n > 1.0 ? survival(boost::math::fisher_f(1.0, n - 1.0), t.f_statistic) : not_a_number;
+    t.f_p =
+        noise_is_determined() ? survival(boost::math::fisher_f(1.0, n - 1.0), t.f_statistic) : not_a_number;
     return t;
   }
 
@@ -85,8 +91,6 @@ struct Block {
     ConfidenceInterval i;
     if (std::isnan(rise)) {
       i.lower = i.upper = not_a_number;
-    } else if (rise == 0.0) {
-      i.lower = i.upper = fit.estimate;
     } else {
       i.lower = end(fit.lower, rise, i.lower_at_bound);
       i.upper = end(fit.upper, rise, i.upper_at_bound);
@@ -98,14 +102,16 @@ struct Block {
     ParameterAudit a;
     a.estimate = fit.estimate;
     a.noise_stated = fit.noise_given;
+    a.fitted_noise = fit.fitted_noise;
     a.noise_unbiased = std::sqrt(unbiased_variance());
     a.chi_squared = fit.chi_squared;
     a.chi_squared_p = n > 1.0 ? survival(boost::math::chi_squared(n - 1.0), fit.chi_squared) : not_a_number;
     a.noise_known_95 =
         interval(fit.noise_given * fit.noise_given * quantile(boost::math::chi_squared(1.0), confidence));
     a.noise_unknown_95 =
-        interval(n > 1.0 ? unbiased_variance() * quantile(boost::math::fisher_f(1.0, n - 1.0), confidence)
-                         : not_a_number);
+        interval(noise_is_determined()
+                     ? unbiased_variance() * quantile(boost::math::fisher_f(1.0, n - 1.0), confidence)
+                     : not_a_number);
     for (const double x : values) {
       a.tests.push_back(test(x));
     }
@@ -128,7 +134,8 @@ Audit audit(const friction::Observations& observations, const Truth& truth, doub
   for (std::size_t i = 0; i < n; ++i) {
     const auto constants = friction::response_constants(observations.measured_ratio[i], physics);
     const auto residual = [&](double force_n) {
-      return (observations.phase_deg[i] - friction::phase_deg(constants, force_n / physics.driving_force_n)) /
+      return friction::angle_residual_deg(observations.phase_deg[i],
+                                          friction::phase_deg(constants, force_n / physics.driving_force_n)) /
              truth.phase_noise_deg;
     };
     a.frequency_difference_hz.push_back(observations.driving_frequency_hz[i] -

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "estimation/least_squares.hpp"
 #include "replication/synthetic.hpp"
 
 namespace replication {
@@ -18,7 +19,8 @@ struct PointTest {
   double likelihood_ratio =
       0.0;  ///< (S(x) - S_min) / sigma^2: twice the log-likelihood ratio with sigma known
   double likelihood_ratio_p = 0.0;  ///< chi^2 with 1 degree of freedom
-  /// (n - 1) (S(x) - S_min) / S_min, which orders x as the likelihood ratio with sigma unknown does; NaN for n = 1.
+  /// (n - 1) (S(x) - S_min) / S_min, which orders x as the likelihood ratio with sigma unknown does; NaN unless
+  /// the residuals determine sigma (estimation::FittedNoise).
   double f_statistic = 0.0;
   double f_p = 0.0;  ///< F with 1 and n - 1 degrees of freedom
 };
@@ -34,14 +36,15 @@ struct ConfidenceInterval {
 
 /// Least squares of one parameter, how well it fits with the noise stated, and tests of other values.
 struct ParameterAudit {
-  double estimate = 0.0;                ///< least squares
-  double noise_stated = 0.0;            ///< sigma
-  double noise_unbiased = 0.0;          ///< sqrt(S_min / (n - 1)); NaN for n = 1
-  double chi_squared = 0.0;             ///< S_min / sigma^2
-  double chi_squared_p = 0.0;           ///< n - 1 degrees of freedom; NaN for n = 1
-  ConfidenceInterval noise_known_95;    ///< by the likelihood ratio with sigma as stated
-  ConfidenceInterval noise_unknown_95;  ///< by the F test; NaN for n = 1
-  std::vector<PointTest> tests;         ///< in the order in which Audit states them
+  double estimate = 0.0;                   ///< least squares
+  double noise_stated = 0.0;               ///< sigma
+  estimation::FittedNoise fitted_noise{};  ///< whether the residuals determine sigma
+  double noise_unbiased = 0.0;             ///< sqrt(S_min / (n - 1)); NaN unless they do
+  double chi_squared = 0.0;                ///< S_min / sigma^2
+  double chi_squared_p = 0.0;              ///< n - 1 degrees of freedom; NaN for n = 1
+  ConfidenceInterval noise_known_95;       ///< by the likelihood ratio with sigma as stated
+  ConfidenceInterval noise_unknown_95;     ///< by the F test; NaN unless the residuals determine sigma
+  std::vector<PointTest> tests;            ///< in the order in which Audit states them
 };
 
 /// What the table says of its own statement; vectors have one entry an observation.
@@ -59,7 +62,7 @@ struct Audit {
 
 /// \param truth  what is stated; both noise levels positive
 /// \param alternative_n  another friction force, N
-/// \throws std::invalid_argument for invalid observations or physics or noise levels that are not positive;
+/// \throws errors::InvalidValue for invalid observations or physics or noise levels that are not positive;
 ///         std::runtime_error if least squares does not converge.
 [[nodiscard]] Audit audit(const friction::Observations& observations, const Truth& truth,
                           double alternative_n, const friction::Physics& physics);

@@ -4,9 +4,10 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "errors/invalid_value.hpp"
+#include "friction/angle.hpp"
 #include "tmcmc/parallel.hpp"
 
 namespace replication {
@@ -19,8 +20,7 @@ constexpr std::uint32_t most_attempts = 1000000;
 
 void require(bool condition, const char* field, tmcmc::Index value, const char* expected) {
   if (!condition) {
-    throw std::invalid_argument(std::string(field) + " = " + std::to_string(value) + ": expected " +
-                                expected);
+    throw errors::InvalidValue(field, value, expected);
   }
 }
 
@@ -89,14 +89,15 @@ SimulatedPair simulate_pair(const friction::Observations& design, const friction
     bool accepted = pair.parameters[Parameter::friction_force] <= model.limit_friction_force_n();
     for (std::size_t i = 0; accepted && i < design.size(); ++i) {
       const auto w = words(i + 1);
-      const auto errors = tmcmc::normal_pair(w[0], w[1] >> 32U);
+      const auto noise = tmcmc::normal_pair(w[0], w[1] >> 32U);
       const double phase =
           friction::phase_deg(friction::response_constants(design.measured_ratio[i], physics),
                               pair.parameters[Parameter::friction_force] / physics.driving_force_n);
-      pair.observations.phase_deg[i] = phase + pair.parameters[Parameter::phase_noise] * errors.first;
+      pair.observations.phase_deg[i] =
+          friction::within_a_turn_deg(phase + pair.parameters[Parameter::phase_noise] * noise.first);
       pair.observations.nominal_ratio[i] =
           design.driving_frequency_hz[i] / pair.parameters[Parameter::natural_frequency] +
-          pair.parameters[Parameter::frequency_ratio_noise] * errors.second;
+          pair.parameters[Parameter::frequency_ratio_noise] * noise.second;
       accepted = !std::isnan(phase) && pair.observations.nominal_ratio[i] > 0.0;
     }
     if (accepted) {
@@ -142,7 +143,7 @@ CalibrationResult calibrate(const friction::Observations& design, const Reading&
 RankHistogram rank_histogram(const std::vector<tmcmc::Index>& ranks, const CalibrationOptions& options) {
   options.validate();
   if (ranks.empty()) {
-    throw std::invalid_argument("rank_histogram: expected at least one rank");
+    throw errors::InvalidValue("ranks", "", "at least one");
   }
   RankHistogram histogram;
   histogram.counts.assign(static_cast<std::size_t>(options.bins), 0);

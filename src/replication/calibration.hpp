@@ -20,7 +20,7 @@ struct CalibrationOptions {
   std::uint64_t seed = 1;  ///< of the simulated pairs and of the runs
   int threads = 1;         ///< over the replications
 
-  /// \throws std::invalid_argument naming field, value and constraint.
+  /// \throws errors::InvalidValue naming field, value and constraint.
   void validate() const;
 };
 
@@ -45,7 +45,7 @@ struct SimulatedPair {
                                           std::uint64_t seed, std::uint32_t replication);
 
 /// \param arm_index  of the random streams of the runs; the simulated pairs do not depend on it
-/// \throws std::invalid_argument for invalid options; as simulate_pair and tmcmc::run.
+/// \throws errors::InvalidValue for invalid options; as simulate_pair and tmcmc::run.
 [[nodiscard]] CalibrationResult calibrate(const friction::Observations& design, const Reading& reading,
                                           const tmcmc::BoxPrior& prior, const Arm& arm,
                                           std::uint32_t arm_index, const CalibrationOptions& options,
@@ -62,7 +62,7 @@ struct RankHistogram {
   double p_coverage_90 = 1.0;        ///< likewise
 };
 /// \param ranks  from 0 to draws, at least one
-/// \throws std::invalid_argument for invalid options or a rank out of range.
+/// \throws errors::InvalidValue for invalid options or a rank out of range.
 [[nodiscard]] RankHistogram rank_histogram(const std::vector<tmcmc::Index>& ranks,
                                            const CalibrationOptions& options);
 

@@ -1,8 +1,8 @@
 #include "replication/counts.hpp"
 
 #include <numeric>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace replication {
@@ -20,7 +20,7 @@ double log_factorial(std::int64_t n) {
 double probability(const std::map<std::int64_t, double>& probabilities, std::int64_t category) {
   const auto found = probabilities.find(category);
   if (found == probabilities.end()) {
-    throw std::invalid_argument("category " + std::to_string(category) + ": expected one with a probability");
+    throw errors::InvalidValue("category", category, "one that has a probability");
   }
   return found->second;
 }

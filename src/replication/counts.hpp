@@ -20,6 +20,7 @@ using Counts = std::map<std::int64_t, std::int64_t>;
                                                                     const Counts& categories);
 
 /// log of the multinomial probability of the counts.
+/// \throws errors::InvalidValue for a category that occurs and has no probability.
 [[nodiscard]] double log_multinomial(const Counts& counts,
                                      const std::map<std::int64_t, double>& probabilities);
 

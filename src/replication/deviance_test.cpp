@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 #include "replication/study.hpp"
 #include "tmcmc/random.hpp"
@@ -253,11 +253,14 @@ class DevianceNull {
 DevianceTest test(const std::vector<Counts>& printed, const std::vector<std::vector<Counts>>& replicated,
                   Against against, const TableDraws& draws) {
   if (printed.empty() || (replicated.size() != 1 && replicated.size() != printed.size()) ||
-      std::any_of(replicated.begin(), replicated.end(), [](const auto& s) { return s.empty(); }) ||
-      draws.tables < 1 || draws.resamples < 2) {
-    throw std::invalid_argument(
-        "deviance test: expected replicated counts behind each table, at least one table to draw and at "
-        "least two resamples");
+      std::any_of(replicated.begin(), replicated.end(), [](const auto& s) { return s.empty(); })) {
+    throw errors::InvalidValue("replicated", "", "studies behind each of one or more printed tables");
+  }
+  if (draws.tables < 1) {
+    throw errors::InvalidValue("tables", draws.tables, "at least 1");
+  }
+  if (draws.resamples < 2) {
+    throw errors::InvalidValue("resamples", draws.resamples, "at least 2");
   }
   return DevianceNull(printed, replicated, against, draws).test();
 }

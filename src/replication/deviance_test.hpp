@@ -34,12 +34,13 @@ struct DevianceTest {
 /// Deviance 2 sum O log(O/E) of printed tables against the probabilities of replicated runs (category_probabilities),
 /// summed over the tables.
 /// \param replicated  counts of the studies behind each table; or one entry that is behind all of them
-/// \throws std::invalid_argument if no study is behind a table, or for options out of range.
+/// \throws errors::InvalidValue if no study is behind a table, or for options out of range.
 [[nodiscard]] DevianceTest test_tables(const std::vector<Counts>& printed,
                                        const std::vector<std::vector<Counts>>& replicated,
                                        const TableDraws& draws = {});
 
-/// Two-sample deviance of two tables, E from their common shares (the likelihood-ratio statistic), against two tables drawn from the one distribution of the replicated runs.
+/// Two-sample deviance of two tables, E from their common shares (the likelihood-ratio statistic), against two tables
+/// drawn from the one distribution of the replicated runs.
 /// \throws as test_tables.
 [[nodiscard]] DevianceTest test_two_tables(const Counts& first, const Counts& second,
                                            const std::vector<Counts>& replicated,

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace replication {
@@ -87,7 +87,7 @@ std::vector<StudySummary> studies_of(const std::vector<StudySummary>& studies, c
   std::copy_if(studies.begin(), studies.end(), std::back_inserter(result),
                [&](const StudySummary& s) { return s.sampler == sampler; });
   if (result.empty()) {
-    throw std::invalid_argument("no replicated study of sampler '" + sampler + "': expected at least one");
+    throw errors::InvalidValue("sampler", sampler, "one with at least one replicated study");
   }
   return result;
 }
@@ -204,8 +204,8 @@ double log_likelihood_of_tables(const std::vector<StudySummary>& studies,
       }
     }
     if (of_sampler.size() < 3 || printed.empty() || printed.size() > 2) {
-      throw std::invalid_argument(
-          "log_likelihood_of_tables: expected one or two areas a sampler and at least 3 studies");
+      throw errors::InvalidValue("sampler", column.sampler,
+                                 "one or two printed areas and at least 3 studies");
     }
     sum += log_density_of_areas(of_sampler, printed);
   }

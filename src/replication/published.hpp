@@ -70,7 +70,7 @@ struct PublishedVerdicts {
 };
 
 /// Each printed area and the table of counts against replicated studies; Holm's adjustment over all of them.
-/// \throws std::invalid_argument if there is no study of a sampler.
+/// \throws errors::InvalidValue if there is no study of a sampler.
 [[nodiscard]] PublishedVerdicts judge_tables(const std::vector<StudySummary>& studies,
                                              const std::vector<PrintedArea>& areas,
                                              const std::vector<PrintedCounts>& counts, Null null,
@@ -81,7 +81,7 @@ struct PublishedVerdicts {
 /// own_studies. For the paper's criteria the reason to pool is algebra: N_eff = N/2 is CoV = 1 with the population standard
 /// deviation, and with that of N - 1 it is CoV = 1 at N_eff = 500.25 of 1000. This function refuses studies for which
 /// that does not hold, N/4 for instance.
-/// \throws std::invalid_argument if there is no study of a sampler.
+/// \throws errors::InvalidValue if there is no study of a sampler.
 [[nodiscard]] Null null_of(const std::vector<StudySummary>& studies, const std::string& first,
                            const std::string& second, std::uint64_t seed);
 
@@ -100,13 +100,13 @@ struct PublishedVerdicts {
 
 /// log of the density of printed areas (Normal in the logarithms of the areas of one study, both parameters and their
 /// correlation) and of the probability of the printed counts, under the studies given.
-/// \throws std::invalid_argument for fewer than 3 studies, or other than one or two areas a sampler.
+/// \throws errors::InvalidValue for fewer than 3 studies, or other than one or two areas a sampler.
 [[nodiscard]] double log_likelihood_of_tables(const std::vector<StudySummary>& studies,
                                               const std::vector<PrintedArea>& areas,
                                               const std::vector<PrintedCounts>& counts, Null null);
 
 /// Studies of one sampler, in the order given.
-/// \throws std::invalid_argument if there is none.
+/// \throws errors::InvalidValue if there is none.
 [[nodiscard]] std::vector<StudySummary> studies_of(const std::vector<StudySummary>& studies,
                                                    const std::string& sampler);
 

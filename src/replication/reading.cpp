@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 namespace replication {
 
 Reading reading(ReadingName name) {
@@ -49,7 +49,7 @@ ReadingName parse_reading(const std::string& name) {
   const auto& names = reading_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    throw std::invalid_argument("reading '" + name + "': expected as_published, as_worded or corrected");
+    throw errors::InvalidValue("reading", name, "as_published, as_worded or corrected");
   }
   return static_cast<ReadingName>(found - names.begin());
 }

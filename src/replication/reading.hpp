@@ -34,14 +34,14 @@ enum class ReadingName {
 [[nodiscard]] Reading reading(ReadingName name);
 
 /// The sampling problem of a reading: likelihood of the observations and prior.
-/// \throws std::invalid_argument for invalid observations or physics.
+/// \throws errors::InvalidValue for invalid observations or physics.
 [[nodiscard]] tmcmc::Problem problem(const Reading& reading, const friction::Observations& observations,
                                      const tmcmc::BoxPrior& prior);
 
 /// Names as used on command lines, in the order of ReadingName.
 [[nodiscard]] const std::vector<std::string>& reading_names();
 
-/// \throws std::invalid_argument naming the readings there are.
+/// \throws errors::InvalidValue naming the readings there are.
 [[nodiscard]] ReadingName parse_reading(const std::string& name);
 
 /// One of the samplers that a study compares: a name and complete options.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <stdexcept>
+
+#include "errors/invalid_value.hpp"
 
 namespace replication {
 
@@ -75,12 +76,9 @@ std::string format_iterations(const std::map<tmcmc::Index, tmcmc::Index>& counts
 
 std::map<tmcmc::Index, tmcmc::Index> parse_iterations(const std::string& text) {
   std::map<tmcmc::Index, tmcmc::Index> counts;
-  const auto reject = [&]() -> std::invalid_argument {
-    return std::invalid_argument(
-        "iterations '" + text +
-        "': expected pairs such as 10:45, with blanks between: each number of iterations once, with 1 to "
-        "1000000 runs");
-  };
+  const errors::InvalidValue refused(
+      "iterations", text,
+      "pairs such as 10:45, with blanks between: each number of iterations once, with 1 to 1000000 runs");
   const char* at = text.data();
   const char* const end = at + text.size();
   const auto number = [&](char after, tmcmc::Index largest) {
@@ -88,7 +86,7 @@ std::map<tmcmc::Index, tmcmc::Index> parse_iterations(const std::string& text) {
     const auto [next, error] = std::from_chars(at, end, value);
     if (error != std::errc() || value < 1 || value > largest ||
         (next == end ? after == ':' : *next != after)) {
-      throw reject();
+      throw refused;
     }
     at = next == end ? end : next + 1;
     return value;
@@ -96,11 +94,11 @@ std::map<tmcmc::Index, tmcmc::Index> parse_iterations(const std::string& text) {
   while (at != end) {
     const tmcmc::Index iterations = number(':', std::numeric_limits<tmcmc::Index>::max());
     if (at == end || !counts.emplace(iterations, number(' ', most_runs)).second) {
-      throw reject();
+      throw refused;
     }
   }
   if (counts.empty()) {
-    throw reject();
+    throw refused;
   }
   return counts;
 }

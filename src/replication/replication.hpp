@@ -37,7 +37,7 @@ struct StudySummary {
 /// "9:2 10:45 11:3": number of iterations and of runs.
 [[nodiscard]] std::string format_iterations(const std::map<tmcmc::Index, tmcmc::Index>& counts);
 
-/// \throws std::invalid_argument unless the text has the form of format_iterations, each number of iterations once and at
+/// \throws errors::InvalidValue unless the text has the form of format_iterations, each number of iterations once and at
 ///         least 1, with 1 to 1000000 runs.
 [[nodiscard]] std::map<tmcmc::Index, tmcmc::Index> parse_iterations(const std::string& text);
 

@@ -1,8 +1,9 @@
 #include "replication/study.hpp"
 
 #include <cmath>
-#include <stdexcept>
+#include <limits>
 
+#include "errors/invalid_value.hpp"
 #include "pbox/pbox.hpp"
 #include "portable_math/sums.hpp"
 #include "tmcmc/diagnostics.hpp"
@@ -20,22 +21,22 @@ std::string name_run(const Arm& arm, tmcmc::Index index) {
 
 void StudyOptions::validate() const {
   if (runs < 1) {
-    throw std::invalid_argument("runs = " + std::to_string(runs) + ": expected at least 1");
+    throw errors::InvalidValue("runs", runs, "at least 1");
   }
   if (threads < 1) {
-    throw std::invalid_argument("threads = " + std::to_string(threads) + ": expected at least 1");
+    throw errors::InvalidValue("threads", threads, "at least 1");
   }
 }
 
 Moments moments(std::span<const double> values) {
   if (values.empty()) {
-    throw std::invalid_argument("moments: expected at least one value");
+    throw errors::InvalidValue("values", "", "at least one");
   }
   const std::size_t n = values.size();
   const double count = static_cast<double>(n);
   const double mean = portable_math::sum_of(n, [&](std::size_t i) { return values[i]; }) / count;
   if (n == 1) {
-    return {mean, 0.0};
+    return {mean, std::numeric_limits<double>::quiet_NaN()};
   }
   const double squares =
       portable_math::sum_of(n, [&](std::size_t i) { return (values[i] - mean) * (values[i] - mean); });
@@ -80,7 +81,7 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
 
 Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads) {
   if (runs.empty()) {
-    throw std::invalid_argument("pbox_areas: expected at least one run");
+    throw errors::InvalidValue("runs", "", "at least one");
   }
   const tmcmc::Index d = runs.front().result.final.points.cols();
   Eigen::VectorXd areas(d);

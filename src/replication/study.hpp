@@ -16,7 +16,7 @@ struct StudyOptions {
   std::uint32_t study = 0;  ///< number of the study among its replications
   int threads = 1;          ///< over the runs
 
-  /// \throws std::invalid_argument naming field, value and constraint.
+  /// \throws errors::InvalidValue naming field, value and constraint.
   void validate() const;
 };
 
@@ -40,18 +40,18 @@ using RunObserver = std::function<void()>;
 
 /// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry a parameter.
 /// \param threads  over the parameters; the areas do not depend on it
-/// \throws std::invalid_argument if there is no run.
+/// \throws errors::InvalidValue if there is no run.
 [[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads = 1);
 
 /// Number of runs that took each number of iterations (Table 4).
 [[nodiscard]] std::map<tmcmc::Index, tmcmc::Index> iteration_counts(const std::vector<Run>& runs);
 
-/// Mean and standard deviation (N - 1; 0 for one value) in index order.
+/// Mean and standard deviation (N - 1; NaN for one value, which has none) in index order.
 struct Moments {
   double mean = 0.0;                ///< sum over n
   double standard_deviation = 0.0;  ///< in the unit of the values
 };
-/// \throws std::invalid_argument if there is no value.
+/// \throws errors::InvalidValue if there is no value.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
 }  // namespace replication

@@ -1,9 +1,10 @@
 #include "replication/synthetic.hpp"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "errors/invalid_value.hpp"
+#include "friction/angle.hpp"
 namespace replication {
 
 std::vector<double> nominal_ratios() {
@@ -18,8 +19,7 @@ friction::Observations generate_observations(const Truth& truth, const std::vect
                                              const friction::Physics& physics, std::uint64_t seed) {
   const auto require = [](bool condition, const char* field, double value, const char* expected) {
     if (!condition || !std::isfinite(value)) {
-      throw std::invalid_argument(std::string(field) + " = " + std::to_string(value) + ": expected " +
-                                  expected);
+      throw errors::InvalidValue(field, value, expected);
     }
   };
   require(truth.friction_force_n >= 0.0, "friction_force_n", truth.friction_force_n,
@@ -32,20 +32,19 @@ friction::Observations generate_observations(const Truth& truth, const std::vect
   friction::Observations o;
   for (std::size_t i = 0; i < nominal_ratio.size(); ++i) {
     const auto words = tmcmc::random_words({.seed = seed}, {.purpose = tmcmc::Purpose::data, .row = i});
-    const auto errors = tmcmc::normal_pair(words[0], words[1] >> 32U);
-    const double r = nominal_ratio[i] + truth.frequency_ratio_noise * errors.first;
+    const auto noise = tmcmc::normal_pair(words[0], words[1] >> 32U);
+    const double r = nominal_ratio[i] + truth.frequency_ratio_noise * noise.first;
     const double phase = friction::phase_deg(friction::response_constants(r, physics),
                                              truth.friction_force_n / physics.driving_force_n);
     if (std::isnan(phase)) {
-      throw std::invalid_argument(
-          "frequency ratio " + std::to_string(r) + " at friction force " +
-          std::to_string(truth.friction_force_n) +
-          " N: expected continuous motion, the phase angle of stick-slip is not modelled");
+      throw errors::InvalidValue("friction_force_n", truth.friction_force_n,
+                                 "continuous motion at the frequency ratio " + std::to_string(r) +
+                                     ", the phase angle of stick-slip is not modelled");
     }
     o.nominal_ratio.push_back(nominal_ratio[i]);
     o.measured_ratio.push_back(r);
     o.driving_frequency_hz.push_back(r * truth.natural_frequency_hz);
-    o.phase_deg.push_back(phase + truth.phase_noise_deg * errors.second);
+    o.phase_deg.push_back(friction::within_a_turn_deg(phase + truth.phase_noise_deg * noise.second));
   }
   return o;
 }

@@ -22,8 +22,8 @@ struct Truth {
 [[nodiscard]] std::vector<double> nominal_ratios();
 
 /// r = r_nom + e_r, omega_b = r omega_n, phase = M_phase(r, F_mu) + e with Normal errors. Row i uses draw i
-/// of the seed.
-/// \throws std::invalid_argument for a truth out of range, or where a drawn ratio has no continuous motion.
+/// of the seed. A phase beyond a turn is reduced to the same angle from -180 to 180 deg.
+/// \throws errors::InvalidValue for a truth out of range, or where a drawn ratio has no continuous motion.
 [[nodiscard]] friction::Observations generate_observations(const Truth& truth,
                                                            const std::vector<double>& nominal_ratio,
                                                            const friction::Physics& physics,

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "replication/study.hpp"
 #include "tmcmc/random.hpp"
 
@@ -40,7 +40,7 @@ double rounding_half_width(const std::string& printed) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(printed.data(), printed.data() + printed.size(), value);
   if (error != std::errc() || end != printed.data() + printed.size() || !std::isfinite(value)) {
-    throw std::invalid_argument("printed value '" + printed + "': expected a decimal number");
+    throw errors::InvalidValue("printed value", printed, "a decimal number");
   }
   const auto exponent_at = printed.find_first_of("eE");
   const std::string mantissa = printed.substr(0, exponent_at);
@@ -80,7 +80,8 @@ PValue two_sided_p(std::span<const double> null, double value, double half_width
 RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio) {
   std::sort(sample.begin(), sample.end());
   if (sample.size() < 2 || !(sample.front() > 0.0) || !(ratio > 0.0)) {
-    throw std::invalid_argument("ratio of equals: expected at least two numbers, and all positive");
+    throw errors::InvalidValue("sample and ratio", "",
+                               "at least two numbers in the sample, and all positive");
   }
   const auto n = static_cast<double>(sample.size());
   // The share of the other numbers that are at least r times x_i, and of those that x_i is at least r times of.
@@ -141,7 +142,7 @@ Equivalence median_ratio_equivalence(std::span<const double> first, std::span<co
                                      double margin, std::uint64_t seed, int resamples) {
   const auto check = [](std::span<const double> values) {
     if (values.empty() || std::any_of(values.begin(), values.end(), [](double x) { return !(x > 0.0); })) {
-      throw std::invalid_argument("median_ratio_equivalence: expected at least one number, and all positive");
+      throw errors::InvalidValue("sample", "", "at least one number, and all positive");
     }
   };
   check(first);

@@ -10,7 +10,7 @@
 namespace replication {
 
 /// Half a unit of the last digit of a number as printed: 0.08151 -> 5e-6, 9 -> 0.5, 1.5e-3 -> 5e-5.
-/// \throws std::invalid_argument unless the text is a decimal number.
+/// \throws errors::InvalidValue unless the text is a decimal number.
 [[nodiscard]] double rounding_half_width(const std::string& printed);
 
 /// An interval that holds 95 %: of what, its owner says.
@@ -46,7 +46,7 @@ struct RatioTest {
 };
 
 /// \param sample  at least two positive numbers
-/// \throws std::invalid_argument for a sample or ratio out of range.
+/// \throws errors::InvalidValue for a sample or ratio out of range.
 [[nodiscard]] RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio);
 
 /// Central 95 % interval of the draws.
@@ -65,7 +65,7 @@ struct Equivalence {
 };
 
 /// \param seed  of the bootstrap (resamples of each sample, `resamples` times)
-/// \throws std::invalid_argument for an empty sample or a number that is not positive.
+/// \throws errors::InvalidValue for an empty sample or a number that is not positive.
 [[nodiscard]] Equivalence median_ratio_equivalence(std::span<const double> first,
                                                    std::span<const double> second, double margin,
                                                    std::uint64_t seed, int resamples = 2000);

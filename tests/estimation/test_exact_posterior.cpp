@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "errors/invalid_value.hpp"
 #include "estimation/exact_posterior.hpp"
 #include "rows.hpp"
 
@@ -268,7 +269,8 @@ TEST_CASE("the limit of continuous motion cuts the posterior", "[estimation]") {
   CHECK(force.density(0.999 * limit) > force.density(0.9 * limit));
 
   bounds[friction_force] = {limit, 10.0};
-  CHECK_THROWS_AS(ExactPosterior(likelihood, bounds), std::domain_error);
+  CHECK_THROWS_WITH(ExactPosterior(likelihood, bounds),
+                    Contains("friction_force.lower") && Contains("limit of continuous motion"));
 }
 
 TEST_CASE("one row, and rows that fit exactly", "[estimation]") {
@@ -441,6 +443,29 @@ TEST_CASE("invalid bounds and options are named", "[estimation]") {
                     Contains("scan_intervals = 3"));
   CHECK_THROWS_WITH(ExactPosterior(likelihood, rows::table2(), {.max_panels = 3}),
                     Contains("max_panels = 3"));
-  CHECK_THROWS_AS(published().marginal(friction::parameter_count), std::invalid_argument);
-  CHECK_THROWS_AS(published().mode_count(phase_noise), std::invalid_argument);
+  CHECK_THROWS_AS(published().marginal(friction::parameter_count), errors::InvalidValue);
+  CHECK_THROWS_AS(published().mode_count(phase_noise), errors::InvalidValue);
+}
+
+TEST_CASE("a phase written with a turn more or less gives the same posterior", "[estimation]") {
+  const ExactPosterior& expected = published();
+  auto turned = rows::table1();
+  turned.phase_deg[2] -= 360.0;
+  turned.phase_deg[7] -= 360.0;
+  const ExactPosterior posterior(Likelihood(turned, rows::as_published()), rows::table2());
+  CHECK_THAT(posterior.log_evidence(), WithinAbs(expected.log_evidence(), 1e-9));
+  for (const auto parameter : {friction_force, phase_noise}) {
+    CHECK_THAT(posterior.marginal(parameter).mean(), WithinRel(expected.marginal(parameter).mean(), 1e-9));
+    CHECK_THAT(posterior.marginal(parameter).standard_deviation(),
+               WithinRel(expected.marginal(parameter).standard_deviation(), 1e-8));
+  }
+}
+
+TEST_CASE("noise as wide as the circle, where residuals cross the half turn", "[estimation]") {
+  auto o = rows::table1();
+  o.phase_deg[0] = -170.0;  // crosses the half turn as the modelled phase passes 10 deg
+  o.phase_deg[1] = -160.0;
+  auto bounds = rows::table2();
+  bounds[phase_noise].upper = 300.0;
+  check_consistency(ExactPosterior(Likelihood(o, rows::as_published()), bounds), 1e-6);
 }

@@ -76,3 +76,20 @@ TEST_CASE("a mode that is not inside is not approximated", "[estimation]") {
   bounds[friction::phase_noise].upper = 100.0;
   CHECK(is_refused(limit, bounds));
 }
+
+TEST_CASE("a perfect fit has no Laplace approximation, and a turn does not change one", "[estimation]") {
+  const auto exact_rows = rows::synthetic(20, 0.0, 0.0);
+  const auto none = laplace_approximation(exact_rows, {}, fit_least_squares(exact_rows, {}), rows::table2());
+  CHECK_FALSE(none.regular);
+  CHECK(std::isnan(none.log_evidence));
+  CHECK(std::isnan(none.mode[friction::phase_noise]));
+
+  const auto o = rows::table1();
+  auto turned = o;
+  turned.phase_deg[5] -= 360.0;
+  const auto first = laplace_approximation(o, {}, fit_least_squares(o, {}), rows::table2());
+  const auto second = laplace_approximation(turned, {}, fit_least_squares(turned, {}), rows::table2());
+  REQUIRE(second.regular);
+  CHECK_THAT(second.log_evidence, WithinAbs(first.log_evidence, 1e-7));
+  CHECK_THAT(second.standard_deviation[0], WithinRel(first.standard_deviation[0], 1e-7));
+}

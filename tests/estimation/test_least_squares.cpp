@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "estimation/least_squares.hpp"
 #include "friction/likelihood.hpp"
 #include "rows.hpp"
@@ -50,6 +51,14 @@ double root_of_gradient(const friction::Observations& o, const friction::Physics
       boost::math::tools::toms748_solve([&](double x) { return gradient(o, physics, x); }, low, high,
                                         boost::math::tools::eps_tolerance<double>(50), iterations);
   return 0.5 * (bracket.first + bracket.second);
+}
+
+void check_noise_is_undefined(const estimation::BlockFit& fit) {
+  CHECK(fit.fitted_noise == estimation::FittedNoise::perfect_fit);
+  CHECK(std::isnan(fit.noise_ml));
+  CHECK(std::isnan(fit.standard_error_ml));
+  CHECK(std::isnan(fit.log_likelihood));
+  CHECK(std::isfinite(fit.standard_error));
 }
 
 /// Standard output and error go to a file as long as it lives.
@@ -163,11 +172,21 @@ TEST_CASE("one row, exact rows and many rows", "[estimation]") {
   CHECK(std::isnan(one.friction_force.reduced_chi_squared));
   CHECK(std::isnan(one.natural_frequency.reduced_chi_squared));
   CHECK_THAT(one.natural_frequency.estimate, WithinRel(1.987 / 0.643, accuracy));
-  CHECK(one.friction_force.noise_ml < 1e-9);
+  for (const auto* block : {&one.friction_force, &one.natural_frequency}) {
+    CHECK(block->fitted_noise == estimation::FittedNoise::one_observation);
+    CHECK(block->sum_of_squares < 1e-18);
+    CHECK(std::isnan(block->noise_ml));
+    CHECK(std::isnan(block->standard_error_ml));
+    CHECK(std::isfinite(block->standard_error));
+  }
+  CHECK(std::isnan(one.log_likelihood()));
 
   const auto exact = fit_least_squares(rows::synthetic(20, 0.0, 0.0), {});
   CHECK_THAT(exact.friction_force.estimate, WithinRel(rows::true_force_n, accuracy));
   CHECK_THAT(exact.natural_frequency.estimate, WithinRel(rows::true_frequency_hz, accuracy));
+  check_noise_is_undefined(exact.friction_force);
+  check_noise_is_undefined(exact.natural_frequency);
+  CHECK(std::isnan(exact.log_likelihood()));
 
   const auto many_rows = rows::synthetic(2000, 2.0, 0.01);
   const auto many = fit_least_squares(many_rows, {});
@@ -246,7 +265,50 @@ TEST_CASE("invalid options are named", "[estimation]") {
   CHECK_THROWS_WITH(fit_least_squares(o, {}, {.agreement_tolerance = 1.0}),
                     Contains("agreement_tolerance = 1"));
   CHECK_THROWS_WITH(fit_least_squares(o, {}, {.max_iterations = 0}), Contains("max_iterations = 0"));
-  CHECK_THROWS_AS(fit_least_squares({}, {}), std::invalid_argument);
+  CHECK_THROWS_AS(fit_least_squares({}, {}), errors::InvalidValue);
   CHECK_THROWS_AS(fit_least_squares(rows::synthetic(20, 2.0, 0.01), {}, {.max_iterations = 1}),
                   std::runtime_error);
+}
+
+TEST_CASE("rows that agree with each other determine no noise", "[estimation]") {
+  // The same row three times fits exactly in both parameters.
+  const friction::Observations repeated{
+      {1.4, 1.4, 1.4}, {1.41, 1.41, 1.41}, {4.3, 4.3, 4.3}, {150.5, 150.5, 150.5}};
+  const auto same = fit_least_squares(repeated, {});
+  check_noise_is_undefined(same.friction_force);
+  check_noise_is_undefined(same.natural_frequency);
+  CHECK_THAT(same.natural_frequency.estimate, WithinRel(4.3 / 1.4, accuracy));
+
+  // A controller that holds the commanded frequency exactly: noise in the phases alone.
+  auto commanded = rows::synthetic(12, 2.0, 0.0);
+  const auto fit = fit_least_squares(commanded, {});
+  CHECK(fit.friction_force.fitted_noise == estimation::FittedNoise::determined);
+  CHECK(std::isfinite(fit.friction_force.log_likelihood));
+  check_noise_is_undefined(fit.natural_frequency);
+
+  // Equal ratios with different phases: no perfect fit of the force.
+  auto scattered = repeated;
+  scattered.phase_deg = {149.0, 150.5, 152.0};
+  CHECK(fit_least_squares(scattered, {}).friction_force.fitted_noise == estimation::FittedNoise::determined);
+
+  // Noise in the twelfth digit of a phase is below the error of the estimate, noise of 1e-4 deg is not.
+  for (const auto& [noise, expected] : {std::pair{1e-10, estimation::FittedNoise::perfect_fit},
+                                        {1e-4, estimation::FittedNoise::determined}}) {
+    CHECK(fit_least_squares(rows::synthetic(12, noise, 0.01), {}).friction_force.fitted_noise == expected);
+  }
+}
+
+TEST_CASE("a phase written with a turn more or less gives the same fit", "[estimation]") {
+  const auto o = rows::table1();
+  const auto fit = fit_least_squares(o, {}).friction_force;
+  for (std::size_t i = 0; i < o.size(); ++i) {
+    CAPTURE(i);
+    auto turned = o;
+    turned.phase_deg[i] -= 360.0;
+    const auto again = fit_least_squares(turned, {}).friction_force;
+    CHECK_THAT(again.estimate, WithinRel(fit.estimate, accuracy));
+    CHECK_THAT(again.noise_ml, WithinRel(fit.noise_ml, accuracy));
+    CHECK_THAT(again.standard_error, WithinRel(fit.standard_error, 1e-7));
+    CHECK_THAT(again.residuals[i], WithinAbs(fit.residuals[i], 1e-6));
+  }
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "errors/invalid_value.hpp"
 #include "estimation/graded_mesh.hpp"
 #include "estimation/tabulated_density.hpp"
 
@@ -122,6 +123,6 @@ TEST_CASE("what cannot be integrated is refused", "[estimation]") {
                     Contains("max_panels = 300"));
   const auto table = normal(0.0, 1.0, -10.0, 10.0);
   for (const double p : {-0.1, 1.1, std::nan("")}) {
-    CHECK_THROWS_AS(table.quantile(p), std::invalid_argument);
+    CHECK_THROWS_AS(table.quantile(p), errors::InvalidValue);
   }
 }

@@ -34,6 +34,50 @@ sed 's/^friction_force,0.01,10,/friction_force,0.501,1.5,/' $prior >narrow_prior
 near "evidence, narrower prior" "$(cell narrow.csv value log_evidence)" \
   "$(awk -v e="$(cell summary.csv value log_evidence)" 'BEGIN {printf "%.8f", e + log(10)}')" 1e-6
 
+# Angles: a phase may be written with a turn more or less. Here every second one is, and the answers stay.
+table1=data/published/table1_observations.csv
+awk -F, -v OFS=, 'NR>1 && NR%2 {$5-=360} {print}' $table1 >turned.csv
+"$bin/exact_posterior" --observations turned.csv --prior $prior --quiet --output turned_posterior.csv 2>said.txt
+check "no warning of some negative phases" test ! -s said.txt
+for column in mean sd laplace_mode laplace_sd least_squares; do
+  near "turned phases, $column" "$(cell turned_posterior.csv $column friction_force_n)" "$(cell exact.csv $column friction_force_n)" 1e-8
+done
+for phases in turned usual; do
+  [ $phases = turned ] && o=turned.csv || o=$table1
+  "$bin/table1_observations" --observations $o --quiet --audit-output ${phases}_rows.csv --audit-summary-output ${phases}_audit.csv
+  "$bin/model_validation" --observations $o --points 5 --error-points 2 --quiet --posterior-output ${phases}_stick_slip.csv
+done
+near "turned phases, audit" "$(cell turned_rows.csv phase_residual_truth 2)" "$(cell usual_rows.csv phase_residual_truth 2)" 1e-10
+near "turned phases, posterior with stick-slip" "$(cell turned_stick_slip.csv mean_friction_force_n computed)" \
+  "$(cell usual_stick_slip.csv mean_friction_force_n computed)" 1e-8
+# A doubtful unit or sign: the result is that of degrees that lag, with one line that says so.
+awk -F, -v OFS=, 'NR>1 {$5*=3.14159265/180} {print}' $table1 >radians.csv
+awk -F, -v OFS=, 'NR>1 {$5=-$5} {print}' $table1 >leads.csv
+for doubt in "radians as degrees, not as radians" "leads positive phase is taken as the lag"; do
+  "$bin/least_squares_baseline" --observations ${doubt%% *}.csv --quiet --output fit.csv 2>said.txt
+  check "${doubt%% *}: one line of warning" test "$(wc -l <said.txt) $(grep -c "^warning: ${doubt%% *}.csv: .*${doubt#* }" said.txt)" = "1 1"
+done
+
+# Fits that determine no noise: one row, equal rows, and a frequency without error.
+head -2 $table1 >one_row.csv
+awk 'NR==1 || NR==4 {print} NR==4 {print; print}' $table1 >equal_rows.csv
+for rows in one_row equal_rows; do
+  "$bin/least_squares_baseline" --observations $rows.csv --output fit.csv >report.txt
+  check "$rows: undefined, with the reason" test "$(grep -c 'the fitted noise is undefined: ' report.txt)" = 2
+  check "$rows: no likelihood" grep -q '^largest log-likelihood undefined$' report.txt
+  check "$rows: no infinity and no error of 0" test "$(grep -cE 'inf|[+]- 0 ' report.txt)" = 0
+  for parameter in friction_force_n natural_frequency_hz; do
+    check "$rows: nan for $parameter" test "$(cell fit.csv standard_error_ml $parameter)" = nan
+  done
+  check "$rows: nan for the noise itself" test "$(cell fit.csv estimate phase_noise_deg)" = nan
+  "$bin/exact_posterior" --observations $rows.csv --prior $prior --output exact_of_few.csv >report.txt
+  check "$rows: the posterior is defined" test "$(cell exact_of_few.csv mean friction_force_n)" != nan
+  check "$rows: Laplace is not" test "$(cell exact_of_few.csv laplace_sd friction_force_n) $(grep -c 'Laplace undefined' report.txt)" = "nan 1"
+  "$bin/table1_observations" --observations $rows.csv --audit-summary-output audit.csv >report.txt
+  check "$rows: no interval with the noise unknown" test "$(cell audit.csv noise_unknown_low friction_force_n "least squares")" = nan
+  check "$rows: the audit says why" grep -q 'the unknown noise is undefined: ' report.txt
+done
+
 # The samplers against the exact answer: bias plus exact is the mean, and the rows are all there.
 "$bin/sampling_study" --runs 4 --samples 300 --quiet --output samples.csv --runs-output runs.csv
 "$bin/exact_posterior" --runs-input runs.csv --samples-input samples.csv --quiet --samplers-output samplers.csv \

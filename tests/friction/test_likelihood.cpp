@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/columns.hpp"
+#include "errors/invalid_value.hpp"
 #include "friction/likelihood.hpp"
 #include "friction/long_double.hpp"
 
@@ -326,9 +327,9 @@ TEST_CASE("the driving force scales the friction force", "[friction][likelihood]
 TEST_CASE("shapes that do not fit are refused", "[friction][likelihood]") {
   const Likelihood likelihood(test_data::table1(), exact);
   Eigen::VectorXd values(3);
-  CHECK_THROWS_AS(likelihood(Eigen::MatrixXd::Ones(3, 3), values), std::invalid_argument);
-  CHECK_THROWS_AS(likelihood(Eigen::MatrixXd::Ones(3, 5), values), std::invalid_argument);
-  CHECK_THROWS_AS(likelihood(Eigen::MatrixXd::Ones(2, 4), values), std::invalid_argument);
+  CHECK_THROWS_AS(likelihood(Eigen::MatrixXd::Ones(3, 3), values), errors::InvalidValue);
+  CHECK_THROWS_AS(likelihood(Eigen::MatrixXd::Ones(3, 5), values), errors::InvalidValue);
+  CHECK_THROWS_AS(likelihood(Eigen::MatrixXd::Ones(2, 4), values), errors::InvalidValue);
   CHECK_NOTHROW(likelihood(Eigen::MatrixXd::Ones(3, 4), values));
 }
 
@@ -336,13 +337,13 @@ TEST_CASE("observations out of range are refused by field, row and value", "[fri
   const auto refused = [](const std::function<void(Observations&)>& change, const std::string& message) {
     Observations data = test_data::table1();
     change(data);
-    CHECK_THROWS_AS(data.validate(), std::invalid_argument);
+    CHECK_THROWS_AS(data.validate(), errors::InvalidValue);
     CHECK_THROWS_WITH(data.validate(), Contains(message));
-    CHECK_THROWS_AS(Likelihood(data, exact), std::invalid_argument);
+    CHECK_THROWS_AS(Likelihood(data, exact), errors::InvalidValue);
   };
   CHECK_NOTHROW(test_data::table1().validate());
   CHECK(test_data::table1().size() == 10);
-  refused([](Observations& o) { o = {}; }, "empty");
+  refused([](Observations& o) { o = {}; }, "at least one row");
   refused([](Observations& o) { o.nominal_ratio.pop_back(); }, "length");
   refused([](Observations& o) { o.measured_ratio.pop_back(); }, "length");
   refused([](Observations& o) { o.driving_frequency_hz.pop_back(); }, "length");
@@ -353,10 +354,10 @@ TEST_CASE("observations out of range are refused by field, row and value", "[fri
     refused([=](Observations& o) { o.measured_ratio[0] = bad; }, "measured_ratio[0] = ");
     refused([=](Observations& o) { o.driving_frequency_hz[9] = bad; }, "driving_frequency_hz[9] = ");
   }
-  for (const double bad : {infinity, -infinity, not_a_number}) {
+  for (const double bad : {infinity, -infinity, not_a_number, 360.5, -1e4}) {
     refused([=](Observations& o) { o.phase_deg[4] = bad; }, "phase_deg[4] = ");
   }
-  refused([](Observations& o) { o.measured_ratio[3] = 1.0; }, "measured_ratio[3] = 1.000000");
+  refused([](Observations& o) { o.measured_ratio[3] = 1.0; }, "measured_ratio[3] = 1:");
   refused([](Observations& o) { o.measured_ratio[3] = 1.0 / 3.0; }, "measured_ratio[3]");
 }
 
@@ -364,7 +365,56 @@ TEST_CASE("a driving force that is none is refused by value", "[friction][likeli
   for (const double bad : {0.0, -2.5, infinity, not_a_number}) {
     Physics physics = exact;
     physics.driving_force_n = bad;
-    CHECK_THROWS_AS(Likelihood(test_data::table1(), physics), std::invalid_argument);
+    CHECK_THROWS_AS(Likelihood(test_data::table1(), physics), errors::InvalidValue);
     CHECK_THROWS_WITH(Likelihood(test_data::table1(), physics), Contains("driving_force_n = "));
   }
+}
+
+TEST_CASE("a phase written with a turn more or less has the same likelihood", "[friction][likelihood]") {
+  // A rig that is driven ten times as hard has phases close to 0 and 180 deg, where noise crosses the half turn.
+  const Physics hard{.driving_force_n = 25.0};
+  Observations data = test_data::table1();
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const double phase =
+        friction::phase_deg(friction::response_constants(data.measured_ratio[i], hard), 0.02);
+    data.phase_deg[i] = phase + (i % 2 == 0 ? 2.75 : -2.75);
+  }
+  const auto above =
+      std::count_if(data.phase_deg.begin(), data.phase_deg.end(), [](double p) { return p > 180.0; });
+  REQUIRE(above > 0);
+  const Eigen::MatrixXd points = random_points(200, 11);
+  const Likelihood likelihood(data, hard);
+  const Eigen::VectorXd expected = evaluate(likelihood, points);
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    CAPTURE(i);
+    Observations same = data;
+    same.phase_deg[i] -= same.phase_deg[i] > 0.0 ? 360.0 : -360.0;
+    const Likelihood turned(same, hard);
+    const Eigen::VectorXd values = evaluate(turned, points);
+    for (Eigen::Index row = 0; row < points.rows(); ++row) {
+      REQUIRE_THAT(values[row], WithinRel(expected[row], direct_tolerance));
+    }
+    CHECK_THAT(turned.phase_misfit(0.5), WithinRel(likelihood.phase_misfit(0.5), direct_tolerance));
+  }
+}
+
+TEST_CASE("phases of a doubtful unit or sign are told apart from phases", "[friction]") {
+  using friction::doubtful_unit_or_sign;
+  const auto lags = test_data::table1().phase_deg;
+  CHECK(doubtful_unit_or_sign(lags).empty());
+  std::vector<double> radians, leads, both;
+  for (const double phase : lags) {
+    radians.push_back(phase * std::numbers::pi / 180.0);
+    leads.push_back(-phase);
+    both.push_back(-radians.back());
+  }
+  CHECK_THAT(doubtful_unit_or_sign(radians), Contains("as degrees") && !Contains("negative"));
+  CHECK_THAT(doubtful_unit_or_sign(leads), Contains("negative") && !Contains("degrees"));
+  CHECK_THAT(doubtful_unit_or_sign(both), Contains("as degrees") && Contains("negative"));
+  leads[4] = 150.0;
+  CHECK(doubtful_unit_or_sign(leads).empty());
+  radians[4] = 6.3;
+  CHECK(doubtful_unit_or_sign(radians).empty());
+  CHECK(doubtful_unit_or_sign({3.0, -2.0}).empty());  // two rows are not several
+  CHECK(doubtful_unit_or_sign({0.0, 0.0, 0.0}).empty());
 }

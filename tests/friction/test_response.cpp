@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "data/columns.hpp"
+#include "errors/invalid_value.hpp"
 #include "friction/response.hpp"
 
 namespace {
@@ -362,8 +363,8 @@ TEST_CASE("singular ratios are recognised, their neighbours are not", "[friction
     CHECK(is_singular_ratio(std::nextafter(r, 2.0)));
     CHECK_FALSE(is_singular_ratio(r * (1.0 + 1e-7)));
     CHECK_FALSE(is_singular_ratio(r * (1.0 - 1e-7)));
-    CHECK_THROWS_AS(response_constants(r, exact), std::invalid_argument);
-    CHECK_THROWS_WITH(response_constants(r, exact), Contains("frequency_ratio = " + std::to_string(r)));
+    CHECK_THROWS_AS(response_constants(r, exact), errors::InvalidValue);
+    CHECK_THROWS_WITH(response_constants(r, exact), Contains("frequency_ratio = ") && Contains("unbounded"));
     CHECK_NOTHROW(response_constants(r * (1.0 + 1e-7), exact));
   }
   for (const double r : {0.5, 0.25, 0.1, 2.0, 3.0, 1e5, 0.644, 0.4}) {
@@ -387,7 +388,7 @@ TEST_CASE("beside a resonance the motion is large but known", "[friction][respon
 TEST_CASE("a ratio without a response is refused by value", "[friction][response]") {
   for (const double r : {0.0, -0.5, infinity, -infinity, not_a_number}) {
     CAPTURE(r);
-    CHECK_THROWS_AS(response_constants(r, exact), std::invalid_argument);
+    CHECK_THROWS_AS(response_constants(r, exact), errors::InvalidValue);
     CHECK_THROWS_WITH(response_constants(r, exact), Contains("frequency_ratio"));
   }
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "errors/invalid_value.hpp"
 #include "friction/response.hpp"
 #include "friction/time_integration.hpp"
 
@@ -364,7 +365,7 @@ TEST_CASE("arguments and options out of range are named", "[friction][time_integ
   const auto rejects = [](const char* field, double r, double phi,
                           const TimeIntegrationOptions& options = {}) {
     CHECK_THROWS_WITH(friction::integrate_steady_response(r, phi, options), Contains(field));
-    CHECK_THROWS_AS(friction::integrate_half_period(r, phi, 0.0, 0.0, options), std::invalid_argument);
+    CHECK_THROWS_AS(friction::integrate_half_period(r, phi, 0.0, 0.0, options), errors::InvalidValue);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

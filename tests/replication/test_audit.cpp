@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "errors/invalid_value.hpp"
 #include "friction/likelihood.hpp"
 #include "replication/audit.hpp"
 
@@ -170,6 +171,34 @@ TEST_CASE("With one row there is no test with the noise unknown") {
   }
 }
 
+TEST_CASE("Rows that fit perfectly leave the unknown noise undefined") {
+  const auto a = audit(replication::generate_observations(
+                           {.phase_noise_deg = 0.0, .frequency_ratio_noise = 0.0}, {0.7, 1.3, 1.6}, exact, 1),
+                       {}, 1.0, exact);
+  for (const auto* parameter : {&a.friction_force, &a.natural_frequency}) {
+    CHECK(std::isnan(parameter->noise_unbiased));
+    CHECK(std::isnan(parameter->noise_unknown_95.lower));
+    CHECK(std::isnan(parameter->noise_unknown_95.upper));
+    CHECK(parameter->noise_known_95.lower < parameter->noise_known_95.upper);
+    for (const auto& t : parameter->tests) {
+      CHECK(std::isnan(t.f_statistic));
+      CHECK(std::isnan(t.f_p));
+      CHECK(std::isfinite(t.likelihood_ratio_p));
+    }
+  }
+}
+
+TEST_CASE("A phase written with a turn more or less gives the same audit") {
+  auto turned = table1();
+  turned.phase_deg[3] -= 360.0;
+  const auto a = audit(table1(), {}, 1.0, exact);
+  const auto b = audit(turned, {}, 1.0, exact);
+  CHECK_THAT(b.phase_residual_truth[3], WithinAbs(a.phase_residual_truth[3], 1e-12));
+  CHECK_THAT(b.phase_residual_alternative[3], WithinAbs(a.phase_residual_alternative[3], 1e-12));
+  CHECK_THAT(b.friction_force.estimate, WithinRel(a.friction_force.estimate, solver));
+  CHECK_THAT(b.friction_force.tests[0].chi_squared, WithinRel(a.friction_force.tests[0].chi_squared, solver));
+}
+
 TEST_CASE("The truth of generated data is inside 95 % of the intervals") {
   constexpr int sets = 400;
   int known_force = 0, unknown_force = 0, known_frequency = 0, unknown_frequency = 0;
@@ -193,8 +222,8 @@ TEST_CASE("The truth of generated data is inside 95 % of the intervals") {
 }
 
 TEST_CASE("Noise levels that are not positive are refused") {
-  CHECK_THROWS_AS(audit(table1(), {.phase_noise_deg = 0.0}, 1.0, exact), std::invalid_argument);
-  CHECK_THROWS_AS(audit(table1(), {.frequency_ratio_noise = -0.01}, 1.0, exact), std::invalid_argument);
+  CHECK_THROWS_AS(audit(table1(), {.phase_noise_deg = 0.0}, 1.0, exact), errors::InvalidValue);
+  CHECK_THROWS_AS(audit(table1(), {.frequency_ratio_noise = -0.01}, 1.0, exact), errors::InvalidValue);
 }
 
 }  // namespace

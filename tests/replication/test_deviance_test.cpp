@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "errors/invalid_value.hpp"
 #include "replication/deviance_test.hpp"
 #include "replication/study.hpp"
 #include "tmcmc/random.hpp"
@@ -180,9 +181,9 @@ TEST_CASE("quantiles of the null", "[counts]") {
 }
 
 TEST_CASE("options and studies out of range are refused", "[counts]") {
-  CHECK_THROWS_AS(test_tables({printed}, {replicated}, {.tables = 0}), std::invalid_argument);
-  CHECK_THROWS_AS(test_tables({printed}, {replicated}, {.resamples = 1}), std::invalid_argument);
-  CHECK_THROWS_AS(test_tables({printed}, {std::vector<Counts>{}}), std::invalid_argument);
-  CHECK_THROWS_AS(test_tables({}, {replicated}), std::invalid_argument);
-  CHECK_THROWS_AS(test_tables({printed, printed, printed}, {replicated, replicated}), std::invalid_argument);
+  CHECK_THROWS_AS(test_tables({printed}, {replicated}, {.tables = 0}), errors::InvalidValue);
+  CHECK_THROWS_AS(test_tables({printed}, {replicated}, {.resamples = 1}), errors::InvalidValue);
+  CHECK_THROWS_AS(test_tables({printed}, {std::vector<Counts>{}}), errors::InvalidValue);
+  CHECK_THROWS_AS(test_tables({}, {replicated}), errors::InvalidValue);
+  CHECK_THROWS_AS(test_tables({printed, printed, printed}, {replicated, replicated}), errors::InvalidValue);
 }

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "errors/invalid_value.hpp"
 #include "replication/friction_study.hpp"
 
 namespace {
@@ -117,7 +118,7 @@ TEST_CASE("names of the readings and back", "[study][reading]") {
   CHECK(replication::parse_reading("as_worded") == ReadingName::as_worded);
   CHECK(replication::parse_reading("corrected") == ReadingName::corrected);
   for (const char* bad : {"", "published", "Corrected", "corrected "}) {
-    CHECK_THROWS_AS(replication::parse_reading(bad), std::invalid_argument);
+    CHECK_THROWS_AS(replication::parse_reading(bad), errors::InvalidValue);
     CHECK_THROWS_WITH(replication::parse_reading(bad), Contains("as_published, as_worded or corrected"));
   }
 }
@@ -166,5 +167,5 @@ TEST_CASE("a problem carries the reading's physics and penalty", "[study][readin
   friction::Observations broken = test_data::table1();
   broken.phase_deg.pop_back();
   const Reading r = reading(ReadingName::corrected);
-  CHECK_THROWS_AS(replication::problem(r, broken, test_data::table2(r)), std::invalid_argument);
+  CHECK_THROWS_AS(replication::problem(r, broken, test_data::table2(r)), errors::InvalidValue);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/columns.hpp"
+#include "errors/invalid_value.hpp"
 #include "replication/synthetic.hpp"
 #include "tmcmc/statistics.hpp"
 
@@ -113,12 +114,30 @@ TEST_CASE("observations depend on the seed, and a row on its number alone", "[st
   }
 }
 
+TEST_CASE("noise beyond a turn leaves an angle", "[study][synthetic]") {
+  Truth wide;
+  wide.phase_noise_deg = 500.0;
+  Truth narrow;
+  const Observations far = generate_observations(wide, nominal_ratios(), exact, 7);
+  const Observations near = generate_observations(narrow, nominal_ratios(), exact, 7);
+  CHECK_NOTHROW(far.validate());
+  bool reduced = false;
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const double phase =
+        friction::phase_deg(friction::response_constants(near.measured_ratio[i], exact), 1.086 / 2.5);
+    const double unreduced = phase + 250.0 * (near.phase_deg[i] - phase);
+    CHECK_THAT(std::remainder(far.phase_deg[i] - unreduced, 360.0), WithinAbs(0.0, 1e-9));
+    reduced = reduced || std::fabs(unreduced) > 360.0;
+  }
+  CHECK(reduced);
+}
+
 TEST_CASE("a truth in stick-slip is refused, naming ratio and force", "[study][synthetic]") {
   Truth truth;
   truth.friction_force_n = 2.0;
-  CHECK_THROWS_AS(generate_observations(truth, nominal_ratios(), exact, 1), std::invalid_argument);
+  CHECK_THROWS_AS(generate_observations(truth, nominal_ratios(), exact, 1), errors::InvalidValue);
   CHECK_THROWS_WITH(generate_observations(truth, nominal_ratios(), exact, 1),
-                    Contains("2.000000 N") && Contains("stick-slip"));
+                    Contains("friction_force_n = 2:") && Contains("stick-slip"));
   CHECK_NOTHROW(generate_observations(truth, {0.8, 0.9}, exact, 1));  // continuous there
 }
 
@@ -134,7 +153,7 @@ TEST_CASE("a truth out of range is refused by name", "[study][synthetic]") {
       CAPTURE(field, value);
       Truth truth;
       set(truth, value);
-      CHECK_THROWS_AS(generate_observations(truth, nominal_ratios(), exact, 1), std::invalid_argument);
+      CHECK_THROWS_AS(generate_observations(truth, nominal_ratios(), exact, 1), errors::InvalidValue);
       CHECK_THROWS_WITH(generate_observations(truth, nominal_ratios(), exact, 1), Contains(field));
     }
   };
