@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
-    const auto problem = replication::problem(reading, observations, prior);
+    const auto problem = interruptible(replication::problem(reading, observations, prior));
     const auto truth =
         known(exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior));
     auto published = reading.sampler;

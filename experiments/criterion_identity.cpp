@@ -44,8 +44,8 @@ int main(int argc, char** argv) {
       reading.sampler.criterion.deviation =
           tmcmc::Deviation::population;  // the identity; N-1 stands beside it
     }
-    const auto problem =
-        replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
+    const auto problem = interruptible(
+        replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading)));
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
     options.validate();

@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
-    const auto problem =
-        replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading));
+    const auto problem = interruptible(
+        replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading)));
     std::optional<io::CsvWriter> csv;
     if (!program.output().empty()) {
       csv.emplace(program.output(),

@@ -13,6 +13,7 @@
 #include "external/program.hpp"
 #include "inputs.hpp"
 #include "kept_run.hpp"
+#include "models/ranks.hpp"
 #include "netcdf/inference_data.hpp"
 #include "shear_frame.hpp"
 #include "tmcmc/diagnostics.hpp"
@@ -93,7 +94,11 @@ const char* advice(tmcmc::StopReason stop) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  models::Ranks ranks(argc, argv);
   Program program("own_model", "Updates a model of one's own: a two-storey shear frame, or another program.");
+  if (ranks.rank() > 0) {
+    program.be_silent();
+  }
   std::string observations_path = example("frame_observations.csv");
   std::string prior_path = example("frame_prior.csv");
   std::string command, netcdf_path, checkpoint_path;
@@ -129,6 +134,10 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < observations.mode.size(); ++i) {
       model += fmt::format(" {}:{}", observations.mode[i], io::format_number(observations.frequency_hz[i]));
     }
+    const auto shared = ranks.share(log_likelihood);
+    if (!shared) {
+      return;  // this rank has evaluated for rank 0
+    }
     auto csv = open_csv(program.output(), [&] {
       auto columns = names;
       columns.emplace_back("log_likelihood");
@@ -154,7 +163,11 @@ int main(int argc, char** argv) {
                                 {.seed = run_options.seed},
                                 read_prior(prior_path, names),
                                 model};
-    const auto result = run_kept(run, log_likelihood, checkpoint);
+    if (ranks.size() > 1) {  // a call for each batch, which the ranks share
+      run.options.threads = 1;
+      run.options.batch_rows = 0;
+    }
+    const auto result = run_kept(run, *shared, checkpoint);
     if (result.stop != tmcmc::StopReason::completed) {  // not the posterior: nothing that looks like it
       archive::remove_checkpoint(checkpoint);
       throw std::runtime_error(fmt::format("ended at beta = {:.4g} after {} stages: {}{}", result.final.beta,

@@ -1,7 +1,6 @@
 // The whole study of the paper (50 runs of TMCMC and of TMCMC-II) many times over: the null distribution that every
 // printed number is judged by. Rows are kept as they come: a process that was killed goes on where it stopped, and ends
-// with the same bytes. Shards (--first-study) concatenate to the file of one process. Under mpirun the ranks share out the
-// studies.
+// with the same bytes. Shards (--first-study) concatenate to the file of one process.
 //
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 
@@ -10,7 +9,6 @@
 #include <cmath>
 
 #include "archive/settings.hpp"
-#include "distributed/farm.hpp"
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "io/journal.hpp"
@@ -94,13 +92,10 @@ void report_column(const Program& program, const std::vector<std::string>& rows,
 }  // namespace
 
 int main(int argc, char** argv) {
-  distributed::Ranks ranks(argc, argv);
   Program program(
       "replicated_study",
       "Repeats the whole study (R runs of each sampler) many times: distributions of the p-box areas,\n"
-      "iteration counts and standard errors. Resumes from OUTPUT.journal where it was killed. Built with\n"
-      "MPI (make build-mpi) and started by mpirun, its ranks share out the studies: same bytes.",
-      ranks);
+      "iteration counts and standard errors. Resumes from OUTPUT.journal where it was killed.");
   InputFiles inputs;
   PhysicsOptions physics;
   SamplerOptions sampler;
@@ -123,77 +118,64 @@ int main(int argc, char** argv) {
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
-    auto problem = replication::problem(reading, observations, prior);
-    problem.log_likelihood = interruptible(problem.log_likelihood);
+    const auto problem = interruptible(replication::problem(reading, observations, prior));
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
-    const auto options = run_options.study_options();
+    auto options = run_options.study_options();
 
-    const auto one_study = [&](const std::string& number) {
-      auto of_study = options;
-      of_study.study = static_cast<std::uint32_t>(std::stoul(number));
-      std::vector<std::string> of_samplers;
-      for (const auto& summary : replication::run_study(problem, arms, of_study)) {
-        of_samplers.push_back(row(summary));
+    std::optional<io::OutputFile> stream;
+    std::optional<io::Journal> journal;
+    std::vector<std::string> rows;
+    if (!program.output().empty()) {
+      stream.emplace(program.output());  // a path that cannot be written is refused before the work
+    }
+    if (stream && !stream->in_place()) {
+      stream.reset();
+      journal.emplace(program.output(), key(reading, arms, options, first_study, observations, prior));
+      rows = journal->rows();
+      rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
+      journal->truncate(rows.size());
+      if (journal->was_damaged()) {
+        program.report("{}: damaged rows are made again\n", journal->path().string());
       }
-      return fmt::format("{}", fmt::join(of_samplers, "\n"));
-    };
-    distributed::lead_or_serve(ranks, one_study, [&](distributed::Farm& farm) {
-      std::optional<io::OutputFile> stream;
-      std::optional<io::Journal> journal;
-      std::vector<std::string> rows;
-      if (!program.output().empty()) {
-        stream.emplace(program.output());  // a path that cannot be written is refused before the work
+      if (!rows.empty()) {
+        program.report("{} studies were done before\n", rows.size() / arms.size());
       }
-      if (stream && !stream->in_place()) {
-        stream.reset();
-        journal.emplace(program.output(), key(reading, arms, options, first_study, observations, prior));
-        rows = journal->rows();
-        rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
-        journal->truncate(rows.size());
-        if (journal->was_damaged()) {
-          program.report("{}: damaged rows are made again\n", journal->path().string());
+    }
+    const auto done = static_cast<long>(rows.size() / arms.size());
+    io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
+    try {
+      for (long k = done; k < studies; ++k) {
+        options.study = static_cast<std::uint32_t>(first_study + k);
+        std::vector<std::string> added;
+        for (const auto& summary : replication::run_study(problem, arms, options)) {
+          added.push_back(row(summary));
         }
-        if (!rows.empty()) {
-          program.report("{} studies were done before\n", rows.size() / arms.size());
-        }
-      }
-      const auto done = static_cast<long>(rows.size() / arms.size());
-      io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
-      long next = done;
-      try {
-        farm.run(
-            [&]() -> std::optional<std::string> {
-              return next < studies ? std::optional(std::to_string(first_study + next++)) : std::nullopt;
-            },
-            [&](const std::string& rows_of_study) {
-              const auto added = parts(rows_of_study, '\n');
-              if (journal) {
-                journal->append(added);
-              }
-              rows.insert(rows.end(), added.begin(), added.end());
-              progress.advance();
-            });
-      } catch (io::Interrupted& interrupted) {
         if (journal) {
-          interrupted.kept = fmt::format("{} of {} studies kept in {}, run the same command again to go on",
-                                         rows.size() / arms.size(), studies, journal->path().string());
+          journal->append(added);
         }
-        throw;
+        rows.insert(rows.end(), added.begin(), added.end());
+        progress.advance();
       }
+    } catch (io::Interrupted& interrupted) {
       if (journal) {
-        journal->finish(first_study == 0 ? header() : "");
-      } else if (stream) {
-        stream->write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
-                                  fmt::join(rows, "\n")));
-        stream->commit();
+        interrupted.kept = fmt::format("{} of {} studies kept in {}, run the same command again to go on",
+                                       rows.size() / arms.size(), studies, journal->path().string());
       }
-      program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
-                     physics.reading_name);
-      program.report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
-      report_column(program, rows, 2, "p-box area, F_mu, N", arms);
-      report_column(program, rows, 3, "p-box area, omega_n, Hz", arms);
-      report_column(program, rows, 10, "standard error, F_mu, N", arms);
-      report_column(program, rows, 22, "log-evidence", arms);
-    });
+      throw;
+    }
+    if (journal) {
+      journal->finish(first_study == 0 ? header() : "");
+    } else if (stream) {
+      stream->write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
+                                fmt::join(rows, "\n")));
+      stream->commit();
+    }
+    program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
+                   physics.reading_name);
+    program.report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
+    report_column(program, rows, 2, "p-box area, F_mu, N", arms);
+    report_column(program, rows, 3, "p-box area, omega_n, Hz", arms);
+    report_column(program, rows, 10, "standard error, F_mu, N", arms);
+    report_column(program, rows, 22, "log-evidence", arms);
   });
 }

@@ -106,8 +106,8 @@ int main(int argc, char** argv) {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
-    auto problem = replication::problem(reading, observations, prior_for(inputs, reading));
-    problem.log_likelihood = interruptible(problem.log_likelihood);
+    const auto problem =
+        interruptible(replication::problem(reading, observations, prior_for(inputs, reading)));
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
 

@@ -92,16 +92,16 @@ scaling:
 
 # ---------------------------------------------------------------- for mpirun (docs/clusters.md)
 
-#: make build-mpi   the executables that run under mpirun, into build/mpi/bin (OpenMPI is installed if missing)
+#: make build-mpi   own_model for mpirun, into build/mpi/bin (OpenMPI is installed if missing)
 build-mpi: | mpi-deps $(filter deps,$(MAKECMDGOALS))
 	@mkdir -p build
 	cmake --preset mpi $(CMAKE_FLAGS) >build/mpi.configure.log 2>&1 || { cat build/mpi.configure.log; false; }
-	cmake --build --preset mpi --target replicated_study
+	cmake --build --preset mpi --target own_model
 
 #: make test-mpi    the same and its tests;  make bench-mpi  a batch of a slow model on one and two ranks
 test-mpi: build-mpi
-	cmake --build --preset mpi --target test_distributed shared_run
-	ctest --preset mpi -R '^distributed'
+	cmake --build --preset mpi --target test_models shared_run
+	ctest --preset mpi -R '^(models|ranks)$$'
 
 bench-mpi: export OMPI_ALLOW_RUN_AS_ROOT := 1
 bench-mpi: export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM := 1

@@ -83,11 +83,6 @@ Program::Program(const std::string& name, const std::string& purpose)
       ->configurable(false);
 }
 
-Program::Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks)
-    : Program(name, purpose) {
-  ranks_ = &ranks;
-}
-
 Program::~Program() = default;
 
 template <class Number>
@@ -210,7 +205,7 @@ int Program::run(int argc, char** argv, const std::function<void()>& body) {
   if (io::interrupt_signal() == 0) {
     return status;
   }
-  if (io::interrupt_signal() != SIGPIPE) {  // whoever closed the pipe knows
+  if (!is_silent_ && io::interrupt_signal() != SIGPIPE) {  // whoever closed the pipe knows
     std::fputs(fmt::format("{}: interrupted: {}\n", app_->get_name(), interrupted.kept).c_str(), stderr);
   }
   io::die_of_interrupt();
@@ -221,7 +216,7 @@ int Program::run_to_end(int argc, char** argv, const std::function<void()>& body
     if (io::interrupt_signal() != 0) {  // a system call that was broken off
       return status;
     }
-    if (ranks_ == nullptr || ranks_->reports_failure()) {
+    if (!is_silent_) {
       const std::string line =
           fmt::format("{}: error: {}\n", app_->get_name(), io::printable(message, longest_message));
       std::fwrite(line.data(), 1, line.size(), stderr);
@@ -233,12 +228,12 @@ int Program::run_to_end(int argc, char** argv, const std::function<void()>& body
     app_->parse(argc, argv);
     check_paths();
     if (show_options_) {
-      fmt::print("{}", app_->config_to_str(true));
+      fmt::print("{}", is_silent_ ? "" : app_->config_to_str(true));
     } else {
       body();
     }
   } catch (const CLI::Success& request) {  // --help, --version
-    if (leads()) {
+    if (!is_silent_) {
       app_->exit(request);
     }
   } catch (const CLI::ParseError& error) {
@@ -276,6 +271,11 @@ tmcmc::LogLikelihood interruptible(tmcmc::LogLikelihood log_likelihood) {
     io::stop_if_interrupted();
     log_likelihood(points, values);
   };
+}
+
+tmcmc::Problem interruptible(tmcmc::Problem problem) {
+  problem.log_likelihood = interruptible(std::move(problem.log_likelihood));
+  return problem;
 }
 
 std::optional<io::CsvWriter> open_csv(const std::string& path, const std::vector<std::string>& columns) {

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "distributed/ranks.hpp"
 #include "io/csv.hpp"
 #include "io/progress.hpp"
 #include "option_checks.hpp"
@@ -33,9 +32,6 @@ namespace experiments {
 class Program {
  public:
   Program(const std::string& name, const std::string& purpose);
-
-  /// For a program that mpirun may start as several ranks, which share out its work: one of them speaks.
-  Program(const std::string& name, const std::string& purpose, distributed::Ranks& ranks);
 
   ~Program();
   Program(const Program&) = delete;
@@ -77,6 +73,9 @@ class Program {
   [[nodiscard]] const std::string& output() const { return output_; }
   [[nodiscard]] bool quiet() const { return quiet_; }
 
+  /// From here on it says nothing, neither report nor error: what mpirun has started besides the rank that speaks.
+  void be_silent() { is_silent_ = true; }
+
   /// Parses, calls body, and turns errors into one line on stderr and an exit status. When a signal has come, one line
   /// says what is kept, and the process dies by the signal (io::catch_interrupts).
   int run(int argc, char** argv, const std::function<void()>& body);
@@ -89,7 +88,7 @@ class Program {
   /// does not stop the work: the exit status tells.
   template <class... Args>
   void report(fmt::format_string<Args...> format, Args&&... args) const {
-    if (!quiet_ && leads()) {
+    if (!quiet_ && !is_silent_) {
       print(fmt::format(format, std::forward<Args>(args)...));
     }
   }
@@ -98,7 +97,6 @@ class Program {
   int run_to_end(int argc, char** argv, const std::function<void()>& body);
   void check_paths();
   void print(std::string text) const;
-  [[nodiscard]] bool leads() const { return ranks_ == nullptr || ranks_->rank() == 0; }
 
   std::unique_ptr<CLI::App> app_;
   std::string output_;
@@ -107,12 +105,13 @@ class Program {
   bool writes_to_stdout_ = false;
   bool is_parsed_ = false;
   std::vector<std::string> read_files_;
-  distributed::Ranks* ranks_ = nullptr;
+  bool is_silent_ = false;
 };
 
 /// The same log-likelihood; each call is a place where the program can be interrupted.
 /// \throws io::Interrupted when it is called.
 [[nodiscard]] tmcmc::LogLikelihood interruptible(tmcmc::LogLikelihood log_likelihood);
+[[nodiscard]] tmcmc::Problem interruptible(tmcmc::Problem problem);
 
 /// The CSV file of an optional output; none if the path is empty.
 /// \throws io::OutputError if it cannot be opened.

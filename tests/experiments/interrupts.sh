@@ -3,6 +3,7 @@
 # whatever signal comes second; nothing stands under a result's name and nothing is left beside it.
 source "$(dirname "$0")/support.sh"
 make_small_inputs
+cp -r "$source/data/examples" data/examples
 mkdir out tmp
 export TMPDIR=$work/tmp
 longest_ms=1500  # a second, on a machine with other work
@@ -12,14 +13,15 @@ listens() { grep -qs '^SigCgt:.*[2367abef]$' "/proc/$pid/status"; }
 # ends_by FIRST SECOND DELAY: both signals after the delay; FIRST has to end what was started, and leave nothing.
 ends_by() {
   local begin what="$1 and $2 after $3 s: $command"
-  wait_for listens
+  wait_for listens 2>/dev/null
   sleep "$3"
   begin=$(now_ms)
   kill -s "$1" $pid 2>/dev/null
+  sleep 0.05  # of signals that are pending together the system delivers the lowest number first
   [ "$2" = nothing ] || kill -s "$2" $pid 2>/dev/null
   wait $pid 2>/dev/null; status=$?
   local took=$(($(now_ms) - begin))
-  [ $status = 0 ] && { ended=$((ended + 1)); return; }  # had done its work
+  case $status in 0 | 2) ended=$((ended + 1)); return ;; esac  # had done its work, with a report that cannot be printed
   check "status $status: $what" test $status = $((128 + $(kill -l "$1")))
   check "$took ms: $what" test $took -lt $longest_ms
   local left; left=$(ls -A out tmp | grep -v 'csv.journal$\|csv.checkpoint$\|^$\|:$')
@@ -35,7 +37,7 @@ long_options() {
     exact_posterior) echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv ;;
     sampling_study) echo --samples 200000 --runs 1000 ;;
     replicated_study | readings | pbox_floor) echo --studies 100000 ;;
-    calibration) echo --replications 1000000 ;;
+    calibration) echo --runs 1000000 ;;
     benchmark_problems | cost_accuracy) echo --runs 10000 ;;
     verdicts | fig9_null_distributions) echo --tables 100000000 ;;
     criterion_identity | endless_criterion) echo --samples 1000000 ;;
@@ -74,6 +76,7 @@ for threads in 1 2; do
     $command 2> >(exec true) &
     pid=$!
     wait_for test -s started
+    check "the program has begun" test -s started
     ends_by TERM "$also" 0
     check "nothing runs on: $command" test -z "$(pgrep -f 'sleep 71')"
   done

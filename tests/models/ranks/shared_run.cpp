@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "archive/checkpoint.hpp"
-#include "distributed/share.hpp"
+#include "models/ranks.hpp"
 #include "tmcmc/problems.hpp"
 
 namespace {
@@ -64,7 +64,7 @@ class Model {
 }  // namespace
 
 int main(int argc, char** argv) {
-  distributed::Ranks ranks(argc, argv);
+  models::Ranks ranks(argc, argv);
   const std::string moves = argv[1];
   const std::string output = argv[3];
   const std::filesystem::path checkpoint = argv[4];
@@ -80,15 +80,13 @@ int main(int argc, char** argv) {
       ridge.prior};
   int status = 0;
   try {
-    distributed::share(ranks, problem, [&](const tmcmc::Problem& shared) {
-      const archive::RunDescription run{options_of(moves), {.seed = 5}, shared.prior, "the ridge"};
-      static_cast<void>(archive::run_with_checkpoint(checkpoint, run, shared.log_likelihood));
+    if (const auto shared = ranks.share(problem.log_likelihood)) {
+      const archive::RunDescription run{options_of(moves), {.seed = 5}, problem.prior, "the ridge"};
+      static_cast<void>(archive::run_with_checkpoint(checkpoint, run, *shared));
       std::filesystem::rename(checkpoint, output);
-    });
-  } catch (const std::exception& error) {
-    if (ranks.reports_failure()) {
-      std::fprintf(stderr, "error: %s\n", error.what());
     }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
     status = 1;
   }
   std::ofstream(output + ".rows." + std::to_string(ranks.rank())) << model.rows() << '\n';

@@ -1,0 +1,13 @@
+#include "models/ranks.hpp"
+
+namespace models {
+
+Ranks::Ranks(int&, char**&) {}
+
+Ranks::~Ranks() = default;
+
+std::optional<tmcmc::LogLikelihood> Ranks::share(const tmcmc::LogLikelihood& model) {
+  return model;
+}
+
+}  // namespace models
