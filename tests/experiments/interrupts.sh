@@ -8,7 +8,7 @@ mkdir out tmp
 export TMPDIR=$work/tmp
 longest_ms=1500  # a second, on a machine with other work
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
-listens() { grep -qs '^SigCgt:.*[2367abef]$' "/proc/$pid/status"; }
+listens() { grep -qs '^SigCgt:.*[4567cdef]...$' "/proc/$pid/status"; }  # to SIGTERM
 
 # ends_by FIRST SECOND DELAY: both signals after the delay; FIRST has to end what was started, and leave nothing.
 ends_by() {
