@@ -75,7 +75,7 @@ one_error 2 '--evaluations' ranks 3 $own --evaluations none --output bad.csv
 one_error 2 'missing/bad.csv' ranks 3 $own --output missing/bad.csv
 printf '#!/bin/sh\nexit 3\n' >broken.sh && chmod +x broken.sh
 one_error 1 'broken.sh: ended with status 3' ranks 3 $own --command ./broken.sh --output bad.csv
-one_error 1 'rank 2 could not begin' mpirun -np 2 $own --output bad.csv : -np 1 $own --prior none.csv --output bad.csv
+one_error 1 'rank 2 could not begin' mpirun -np 2 $own --output bad.csv : -np 1 $own --observations none.csv --output bad.csv
 
 # Ctrl-C and the like: mpirun passes them on, and nothing runs on.
 export TMPDIR=$work/tmp STARTED=$work/started
