@@ -43,8 +43,8 @@ check "standard output" cmp -s whole.csv <($study --studies 20 --output -)
 mkdir -p stub array
 printf '#!/bin/sh\necho "$@" >>requeued\n' >stub/scontrol
 chmod +x stub/scontrol
-task() { (cd array && STUDY=$bin/replicated_study PATH=$work/stub:$PATH SLURM_JOB_ID=7$1 SLURM_ARRAY_TASK_ID=$1 exec bash "$source/docs/examples/replicated_study.slurm" "${@:2}" --runs 5 --samples 300 --quiet); }
-task 1 10
+task() { cd array && STUDY=$bin/replicated_study PATH=$work/stub:$PATH SLURM_JOB_ID=7$1 SLURM_ARRAY_TASK_ID=$1 exec bash "$source/docs/examples/replicated_study.slurm" "${@:2}" --runs 5 --samples 300 --quiet; }
+(task 1 10)
 task 0 10000 2>/dev/null &  # takes too long
 batch=$!
 tries=0
@@ -54,7 +54,7 @@ wait $batch
 check "a task out of time: status" test $? = 1
 check "a task out of time: back into the queue" test "$(cat array/requeued)" = "requeue 70"
 check "a task out of time: no shard, but its journal" test ! -e array/studies-00000.csv -a -s array/studies-00000.csv.journal
-task 0 10
+(task 0 10)
 check "a job array" cmp -s whole.csv <(cat array/studies-*.csv)
 
 { timeout -s KILL 0.15 $study --studies 20 --output other.csv; } 2>/dev/null
