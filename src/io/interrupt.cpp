@@ -18,7 +18,7 @@ static_assert(std::atomic<int>::is_always_lock_free, "the signal handlers need l
 
 void handle(int signal_number, void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = handler;  // without SA_RESTART: what waits is broken off
+  action.sa_handler = handler;    // without SA_RESTART: what waits is broken off
   ::sigfillset(&action.sa_mask);  // a second signal that is pending too must not be handled first
   ::sigaction(signal_number, &action, nullptr);
 }
