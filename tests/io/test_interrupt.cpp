@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int untouched = 7;    // exit status of a body that came to its end
-constexpr double soon_s = 1.5;  // a second, on a machine with other work
+constexpr double soon_s = 2.5;  // a second, on a machine with other work
 
 struct End {
   int status;
