@@ -165,8 +165,8 @@ int main(int argc, char** argv) {
         const auto data = variant.random_ratios
                               ? with_random_ratios(observations, options.seed, options.study)
                               : observations;
-        const auto study =
-            replication::run_study(replication::problem(variant.reading, data, prior), arms, options);
+        const auto study = replication::run_study(
+            interruptible(replication::problem(variant.reading, data, prior)), arms, options);
         summaries.insert(summaries.end(), study.begin(), study.end());
         progress.advance();
       }
