@@ -7,85 +7,46 @@
 // 2023), or the reader's own.
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <map>
 
-#include "friction/angle.hpp"
-#include "friction/time_integration.hpp"
+#include "estimation/stick_slip.hpp"
 #include "inputs.hpp"
-#include "portable_math/elementary.hpp"
+#include "replication/model_checks.hpp"
 
 using namespace experiments;
 
 namespace {
 
-/// Closer to the limit than this, as a fraction of it, the integrator can take a near stop for a stop.
-constexpr double near_limit = 1e-3;
-
-/// Posterior masses below this are not refined.
-constexpr double negligible_mass = 1e-20;
-
 std::string degrees(double value) {
   return std::isfinite(value) ? fmt::format("{:.8f}", value) : "nan";
 }
 
-/// The same motion in the exact model and in the published discretisation.
-struct Models {
-  friction::ResponseConstants exact, published;
-
-  Models(double r, double driving_force_n)
-      : exact(friction::response_constants(r, {.driving_force_n = driving_force_n})),
-        published(friction::response_constants(r, {.driving_force_n = driving_force_n,
-                                                   .limit = friction::LimitRule::grid,
-                                                   .phase = friction::PhaseRule::discrete_bin})) {}
-};
-
 /// Analytic and integrated phase over a grid of r and phi, and what motion there is beyond the limit.
-void validate_phase(const Program& program, std::optional<io::CsvWriter>& csv,
-                    const friction::Observations& observations, double driving_force_n, long points) {
+void check_phases(const Program& program, std::optional<io::CsvWriter>& csv,
+                  const friction::Observations& observations, double driving_force_n, long points) {
   program.report("{:>8} {:>9} {:>9} {:>22} {:>22} {:>24}\n", "r", "phi_lim", "on grid",
                  "largest difference, deg", "stick-slip phase, deg", "stops a period");
   double largest = 0.0, between = 0.0;
   long compared = 0, continuous_beyond = 0, stopping_below = 0;
   for (const double r : observations.measured_ratio) {
-    const Models models(r, driving_force_n);
-    double difference = 0.0, lowest = 360.0, highest = 0.0;
-    int fewest = 1000000, most = 0;
-    for (long i = 0; i < points; ++i) {
-      const double phi = static_cast<double>(i) / static_cast<double>(points - 1);
-      const auto integrated = friction::integrate_steady_response(r, phi);
-      const double exact = friction::phase_deg(models.exact, phi);
-      const double published = friction::phase_deg(models.published, phi);
+    const auto check = replication::check_phase(r, driving_force_n, points);
+    for (const auto& point : check.points) {
       if (csv) {
-        csv->row(r, phi, digits(models.exact.limit_force_ratio), digits(models.published.limit_force_ratio),
-                 degrees(exact), degrees(published), degrees(integrated.phase_deg),
-                 integrated.stops_per_period);
-      }
-      const double beyond = phi / models.exact.limit_force_ratio - 1.0;
-      if (integrated.state != friction::SteadyState::periodic || std::fabs(beyond) < near_limit) {
-        continue;
-      }
-      if (beyond < 0.0) {
-        difference = std::max(difference, std::fabs(integrated.phase_deg - exact));
-        stopping_below += integrated.continuous ? 0 : 1;
-        ++compared;
-      } else {
-        between =
-            std::max(between, std::isnan(published) ? 0.0 : std::fabs(published - integrated.phase_deg));
-        lowest = std::min(lowest, integrated.phase_deg);
-        highest = std::max(highest, integrated.phase_deg);
-        fewest = std::min(fewest, integrated.stops_per_period);
-        most = std::max(most, integrated.stops_per_period);
-        continuous_beyond += integrated.continuous ? 1 : 0;
+        csv->row(r, point.force_ratio, digits(check.limit_force_ratio), digits(check.limit_force_ratio_grid),
+                 degrees(point.exact_deg), degrees(point.published_deg), degrees(point.integrated_deg),
+                 point.stops_per_period);
       }
     }
-    largest = std::max(largest, difference);
-    const bool stick_slip = most > 0;
-    program.report("{:>8} {:>9.5f} {:>9.5f} {:>22.1e} {:>22} {:>24}\n", r, models.exact.limit_force_ratio,
-                   models.published.limit_force_ratio, difference,
-                   stick_slip ? fmt::format("{:.1f} to {:.1f}", lowest, highest) : "none",
-                   stick_slip ? fmt::format("{} to {}", fewest, most) : "");
+    largest = std::max(largest, check.largest_difference_deg);
+    between = std::max(between, check.published_error_deg);
+    compared += check.compared;
+    continuous_beyond += check.continuous_beyond;
+    stopping_below += check.stopping_below;
+    const bool stick_slip = check.most_stops > 0;
+    program.report("{:>8} {:>9.5f} {:>9.5f} {:>22.1e} {:>22} {:>24}\n", r, check.limit_force_ratio,
+                   check.limit_force_ratio_grid, check.largest_difference_deg,
+                   stick_slip ? fmt::format("{:.1f} to {:.1f}", check.lowest_deg, check.highest_deg) : "none",
+                   stick_slip ? fmt::format("{} to {}", check.fewest_stops, check.most_stops) : "");
   }
   program.report(
       "largest difference of the phase angle {:.1e} deg over {} points below the limit;\n"
@@ -99,21 +60,14 @@ void published_errors(const Program& program, std::optional<io::CsvWriter>& csv,
                       double driving_force_n, long points) {
   constexpr double lowest = 0.6, highest = 2.0;
   double least = 0.0, most = 0.0, limit = 0.0;
-  for (long i = 0; i < points; ++i) {
-    const double r = lowest + (highest - lowest) * static_cast<double>(i) / static_cast<double>(points - 1);
-    if (friction::is_singular_ratio(r)) {
-      continue;
-    }
-    const Models models(r, driving_force_n);
-    const double phi = friction_force_n / driving_force_n;
-    const double phase = friction::phase_deg(models.published, phi) - friction::phase_deg(models.exact, phi);
-    const double relative = models.published.limit_force_ratio / models.exact.limit_force_ratio - 1.0;
+  for (const auto& error :
+       replication::discretisation_errors(lowest, highest, points, friction_force_n, driving_force_n)) {
     if (csv) {
-      csv->row(digits(r), digits(phase, 8), digits(relative, 8));
+      csv->row(digits(error.frequency_ratio), digits(error.phase_deg, 8), digits(error.limit_relative, 8));
     }
-    least = std::min(least, phase);
-    most = std::max(most, phase);
-    limit = std::max(limit, relative);
+    least = std::min(least, error.phase_deg);
+    most = std::max(most, error.phase_deg);
+    limit = std::max(limit, error.limit_relative);
   }
   program.report(
       "published discretisation, r = {} to {}: phase at {} N off by {:+.4f} to {:+.4f} deg,\n"
@@ -121,109 +75,21 @@ void published_errors(const Program& program, std::optional<io::CsvWriter>& csv,
       lowest, highest, friction_force_n, least, most, 100.0 * limit);
 }
 
-/// Squared phase residuals, the phase being integrated where an observation's motion is not continuous; NaN from phi = 1
-/// on, where the mass rests and has no phase.
-double misfit_with_stick_slip(const friction::Observations& observations,
-                              const std::vector<friction::ResponseConstants>& constants, double phi) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < constants.size(); ++i) {
-    const double phase =
-        phi <= constants[i].limit_force_ratio
-            ? friction::phase_deg(constants[i], phi)
-            : friction::integrate_steady_response(constants[i].frequency_ratio, phi).phase_deg;
-    const double residual = friction::angle_residual_deg(observations.phase_deg[i], phase);
-    sum += residual * residual;
-  }
-  return sum;
-}
-
-/// Posterior mass of the friction forces beyond the limit, with their first two moments about a centre, as multiples
-/// of the mass below it.
-struct Beyond {
-  double mass = 0.0, first = 0.0, second = 0.0;
-  double error = 0.0;  ///< of the mass
-};
-
-Beyond integrate_beyond(const friction::Observations& observations, double driving_force_n,
-                        const estimation::Interval& force, const estimation::Interval& noise,
-                        double log_mass_below, double centre) {
-  std::vector<friction::ResponseConstants> constants;
-  constants.reserve(observations.size());
-  for (const double r : observations.measured_ratio) {
-    constants.push_back(friction::response_constants(r, {.driving_force_n = driving_force_n}));
-  }
-  // The motion of one observation after the other stops: there the misfit has kinks.
-  const double top = std::min(force.upper, driving_force_n);
-  std::vector<double> limits;
-  for (const auto& c : constants) {
-    limits.push_back(std::clamp(c.limit_force_ratio * driving_force_n, force.lower, top));
-  }
-  std::sort(limits.begin(), limits.end());
-  std::vector<double> ends = {limits.front()};
-  for (const double limit : limits) {
-    if (limit - ends.back() > (top - limits.front()) / 64.0) {
-      ends.push_back(limit);
-    }
-  }
-  ends.push_back(top);
-  std::map<double, double> known;
-  const auto density = [&](double x) {
-    const auto [place, is_new] = known.try_emplace(x, 0.0);
-    if (is_new) {
-      const double misfit = misfit_with_stick_slip(observations, constants, x / driving_force_n);
-      place->second =
-          std::isnan(misfit)
-              ? 0.0
-              : portable_math::exp(estimation::log_noise_integral(observations.size(), noise, misfit) -
-                                   log_mass_below);
-    }
-    return place->second;
-  };
-  Beyond beyond;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    if (!(ends[i] < ends[i + 1])) {
-      continue;
-    }
-    const auto integral = [&](int power, unsigned depth, double* error) {
-      return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-          [&](double x) {
-            const double d = x - centre;
-            return density(x) * (power == 0 ? 1.0 : power == 1 ? d : d * d);
-          },
-          ends[i], ends[i + 1], depth, 1e-7, error);
-    };
-    double error = 0.0;
-    const unsigned depth = integral(0, 0, nullptr) > negligible_mass ? 6 : 0;
-    beyond.mass += integral(0, depth, &error);
-    beyond.first += integral(1, depth, nullptr);
-    beyond.second += integral(2, depth, nullptr);
-    beyond.error += error;
-  }
-  return beyond;
-}
-
-void stick_slip(const Program& program, std::optional<io::CsvWriter>& csv,
-                const friction::Observations& observations, const friction::Likelihood& likelihood,
-                const estimation::ExactPosterior& posterior, const estimation::ParameterBounds& bounds) {
+void report_stick_slip(const Program& program, std::optional<io::CsvWriter>& csv, double limit_n,
+                       const estimation::ExactPosterior& posterior,
+                       const estimation::StickSlipPosterior& computed) {
   const auto& excluded = posterior.marginal(friction::friction_force);
   const double sd = excluded.standard_deviation();
-  const Beyond beyond =
-      integrate_beyond(observations, likelihood.driving_force_n(), bounds[friction::friction_force],
-                       bounds[friction::phase_noise], excluded.log_integral(), excluded.mean());
-  const double total = 1.0 + beyond.mass;
-  const double shift = beyond.first / total;
-  const double sd_computed = std::sqrt((sd * sd + beyond.second) / total - shift * shift);
-  const double evidence_change = portable_math::log(total);
   program.report(
       "stick-slip computed instead of excluded, F_mu beyond {:.6f} N: posterior probability {:.3g};\n"
       "F_mu mean {:.6f} N {:+.1e}, sd {:.6f} N {:+.1e}; log-evidence {:.5f} {:+.1e}\n",
-      likelihood.limit_friction_force_n(), beyond.mass / total, excluded.mean(), shift, sd, sd_computed - sd,
-      posterior.log_evidence(), evidence_change);
+      limit_n, computed.probability, excluded.mean(), computed.mean_shift, sd,
+      computed.standard_deviation - sd, posterior.log_evidence(), computed.log_evidence_change);
   if (csv) {
     csv->row("excluded", digits(excluded.mean()), digits(sd), digits(posterior.log_evidence()), 0, 0);
-    csv->row("computed", digits(excluded.mean() + shift), digits(sd_computed),
-             digits(posterior.log_evidence() + evidence_change), digits(beyond.mass / total, 6),
-             digits(beyond.error / total, 1));
+    csv->row("computed", digits(excluded.mean() + computed.mean_shift), digits(computed.standard_deviation),
+             digits(posterior.log_evidence() + computed.log_evidence_change), digits(computed.probability, 6),
+             digits(computed.probability_error, 1));
   }
 }
 
@@ -264,9 +130,11 @@ int main(int argc, char** argv) {
     auto moments =
         open_csv(posterior_output, {"stick_slip", "mean_friction_force_n", "sd_friction_force_n",
                                     "log_evidence", "stick_slip_probability", "probability_error"});
-    validate_phase(program, csv, observations, driving_force, points);
+    check_phases(program, csv, observations, driving_force, points);
     published_errors(program, errors, friction_force, driving_force, error_points);
-    stick_slip(program, moments, observations, likelihood, posterior, bounds_of(prior));
+    report_stick_slip(
+        program, moments, likelihood.limit_friction_force_n(), posterior,
+        estimation::posterior_with_stick_slip(observations, likelihood, posterior, bounds_of(prior)));
     io::commit_all(csv, errors, moments);
   });
 }

@@ -1,0 +1,65 @@
+/// \file
+/// Den Hartog's solution and the published discretisation against integration of Eq. 10 in time.
+#pragma once
+
+#include <vector>
+
+#include "friction/response.hpp"
+
+namespace replication {
+
+/// The same motion in the exact model and in the published discretisation (phase from a 901-point transform, limit of
+/// Eq. 18 on a grid of 14 points).
+struct BothModels {
+  friction::ResponseConstants exact;      ///< friction::Physics as it is by default
+  friction::ResponseConstants published;  ///< LimitRule::grid and PhaseRule::discrete_bin
+  /// \throws errors::InvalidValue for a ratio without a response.
+  BothModels(double frequency_ratio, double driving_force_n);
+};
+
+/// One motion: phases in deg, NaN where a model has none.
+struct PhasePoint {
+  double force_ratio = 0.0;
+  double exact_deg = 0.0;
+  double published_deg = 0.0;
+  double integrated_deg = 0.0;
+  int stops_per_period = 0;
+};
+
+/// Motions at one frequency ratio, and what the integration in time says of the models.
+struct PhaseCheck {
+  double frequency_ratio = 0.0;
+  double limit_force_ratio = 0.0;       ///< phi_lim, exact
+  double limit_force_ratio_grid = 0.0;  ///< phi_lim as published
+  std::vector<PhasePoint> points;       ///< force ratios equidistant from 0 to 1
+  double largest_difference_deg = 0.0;  ///< exact against integrated, below the limit
+  long compared = 0;                    ///< points behind it
+  long stopping_below = 0;              ///< of these, the motions that stop
+  double published_error_deg =
+      0.0;                     ///< largest error of the published phase between the exact limit and its own
+  double lowest_deg = 360.0;   ///< smallest phase beyond the limit
+  double highest_deg = 0.0;    ///< largest phase beyond the limit
+  int fewest_stops = 1000000;  ///< a period, beyond the limit
+  int most_stops = 0;          ///< likewise
+  long continuous_beyond = 0;  ///< motions beyond the limit that do not stop
+};
+
+/// Analytic and integrated phases over force ratios. Points within 1e-3 of the limit, where the integrator can take a near
+/// stop for a stop, and motions that are not periodic are not compared.
+/// \param points  2 or more
+[[nodiscard]] PhaseCheck check_phase(double frequency_ratio, double driving_force_n, long points);
+
+/// What the published discretisation is off at one frequency ratio.
+struct DiscretisationError {
+  double frequency_ratio = 0.0;
+  double phase_deg = 0.0;       ///< published phase minus the exact one
+  double limit_relative = 0.0;  ///< published limit over the exact one, minus 1
+};
+
+/// Errors of the published discretisation at frequency ratios equidistant from `lowest` to `highest`, singular ones left out.
+/// \param points  2 or more
+[[nodiscard]] std::vector<DiscretisationError> discretisation_errors(double lowest, double highest,
+                                                                     long points, double friction_force_n,
+                                                                     double driving_force_n);
+
+}  // namespace replication
