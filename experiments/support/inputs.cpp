@@ -33,6 +33,18 @@ std::vector<double> ratios(const io::CsvTable& table, const char* column) {
       "a ratio between 1e-4 and 1e6");
 }
 
+/// Refuses bounds without numbers between them.
+void require_interval(const io::CsvTable& table, std::size_t row, double lower, double upper) {
+  if (!(lower < upper)) {
+    table.fail(row, "upper", "a number above the lower bound " + io::format_number(lower));
+  }
+  if (!(std::nextafter(lower, upper) < upper)) {
+    table.fail(
+        row, "upper",
+        fmt::format("a number above the lower bound {}, with others between them", io::format_number(lower)));
+  }
+}
+
 /// A complaint such as "friction_force.lower = 3: expected less than 2 N", with its place in the file of the prior. What
 /// is no regular file cannot be read a second time.
 [[noreturn]] void fail_prior(const std::string& path, const std::string& complaint) {
@@ -140,6 +152,7 @@ tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::strin
   const auto table = io::CsvTable::read(path);
   table.require_columns({"parameter", "lower", "upper"});
   const auto names = table.text("parameter");
+  require_once(table, names, "parameter", "each parameter once");
   const auto lower = nonnegative_numbers(table, "lower");
   const auto upper = table.numbers("upper");
   std::vector<bool> seen(expected.size(), false);
@@ -152,32 +165,51 @@ tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::strin
           row, "parameter",
           fmt::format("{} or {}", fmt::join(expected.begin(), expected.end() - 1, ", "), expected.back()));
     }
-    const auto j = static_cast<std::size_t>(found - expected.begin());
-    if (seen[j]) {
-      table.fail(row, "parameter", "each parameter once");
-    }
-    seen[j] = true;
-    if (!(lower[row] < upper[row])) {
-      table.fail(row, "upper", "a number above the lower bound " + io::format_number(lower[row]));
-    }
+    require_interval(table, row, lower[row], upper[row]);
     if (!(upper[row] >= smallest_bound && upper[row] <= largest_bound)) {
       table.fail(row, "upper", "a number from 1e-100 to 1e100");
     }
-    if (!(std::nextafter(lower[row], upper[row]) < upper[row])) {
-      table.fail(row, "upper",
-                 fmt::format("a number above the lower bound {}, with others between them",
-                             io::format_number(lower[row])));
-    }
+    const auto j = static_cast<std::size_t>(found - expected.begin());
+    seen[j] = true;
     low[static_cast<Eigen::Index>(j)] = lower[row];
     high[static_cast<Eigen::Index>(j)] = upper[row];
   }
   for (std::size_t j = 0; j < seen.size(); ++j) {
     if (!seen[j]) {
-      throw io::InputError(fmt::format("{}: column 'parameter': no row '{}': expected one row for each of {}",
-                                       path, expected[j], fmt::join(expected, ", ")));
+      throw io::InputError({.path = path,
+                            .column = "'parameter'",
+                            .found = fmt::format("no row '{}'", expected[j]),
+                            .expected = fmt::format("one row for each of {}", fmt::join(expected, ", "))});
     }
   }
   return {low, high};
+}
+
+NamedPrior read_named_prior(const std::string& path,
+                            const std::function<void(const std::string& name)>& require_name) {
+  const auto table = io::CsvTable::read(path);
+  table.require_columns({"parameter", "lower", "upper"});
+  auto names = table.text("parameter");
+  require_once(table, names, "parameter", "each parameter once");
+  const auto is_moderate = [](double x) { return std::abs(x) <= largest_bound; };
+  const std::string expected = "a number from -1e100 to 1e100";
+  const auto lower = checked(table, "lower", table.numbers("lower"), is_moderate, expected);
+  const auto upper = checked(table, "upper", table.numbers("upper"), is_moderate, expected);
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    try {
+      require_name(names[row]);
+    } catch (const errors::InvalidValue& error) {
+      table.fail(row, "parameter", error.expected());
+    }
+    require_interval(table, row, lower[row], upper[row]);
+    if (!(upper[row] - lower[row] >= smallest_bound)) {
+      table.fail(
+          row, "upper",
+          fmt::format("a number at least 1e-100 above the lower bound {}", io::format_number(lower[row])));
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(names.size());
+  return {std::move(names), {Eigen::VectorXd::Map(lower.data(), n), Eigen::VectorXd::Map(upper.data(), n)}};
 }
 
 tmcmc::BoxPrior prior_for(const InputFiles& inputs, const replication::Reading& reading) {

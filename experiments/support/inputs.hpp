@@ -2,6 +2,7 @@
 /// Tables that the experiments read: measurements, priors, samples of a study.
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -90,6 +91,18 @@ void require_runs_once(const io::CsvTable& table);
 [[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path);
 /// The same of parameters with other names, in their order; none may be negative.
 [[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::string>& names);
+
+/// Bounds and the names of the parameters that they belong to, in the order of the file.
+struct NamedPrior {
+  std::vector<std::string> names;
+  tmcmc::BoxPrior prior;
+};
+
+/// A prior in the same form, of any parameters and with bounds of any sign.
+/// \param require_name  throws errors::InvalidValue for a name that a parameter must not have
+/// \throws io::InputError naming file, line, column and value.
+[[nodiscard]] NamedPrior read_named_prior(const std::string& path,
+                                          const std::function<void(const std::string& name)>& require_name);
 
 /// The prior that the options ask for: a file of the user's as it stands; else Table 2 as the reading has it.
 [[nodiscard]] tmcmc::BoxPrior prior_for(const InputFiles& inputs, const replication::Reading& reading);

@@ -45,18 +45,27 @@ const std::vector<std::string>& FrameLikelihood::parameter_names() {
   return names;
 }
 
-void FrameLikelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                                 Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+Eigen::MatrixXd FrameLikelihood::pointwise(const Eigen::Ref<const Eigen::MatrixXd>& points) const {
+  Eigen::MatrixXd result(points.rows(), static_cast<Eigen::Index>(observations_.mode.size()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const auto model = frame_frequencies_hz(points(i, 0), points(i, 1));
     const double noise = points(i, 2);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < observations_.mode.size(); ++k) {
-      const double frequency = model[static_cast<std::size_t>(observations_.mode[k] - 1)];
-      const double residual = (observations_.frequency_hz[k] / frequency - 1.0) / noise;
-      sum -= 0.5 * (log_2_pi + residual * residual) + portable_math::log(noise * frequency);
+    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const double frequency = model[static_cast<std::size_t>(observations_.mode[at] - 1)];
+      const double residual = (observations_.frequency_hz[at] / frequency - 1.0) / noise;
+      result(i, k) = -(0.5 * (log_2_pi + residual * residual) + portable_math::log(noise * frequency));
     }
-    log_likelihood[i] = sum;
+  }
+  return result;
+}
+
+void FrameLikelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                 Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+  const Eigen::MatrixXd terms = pointwise(points);
+  log_likelihood.setZero();
+  for (Eigen::Index k = 0; k < terms.cols(); ++k) {  // in the order of the observations
+    log_likelihood += terms.col(k);
   }
 }
 

@@ -37,6 +37,11 @@ class FrameLikelihood {
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 
+  /// The same of each observation alone: n x observations, whose rows add up to the values above.
+  [[nodiscard]] Eigen::MatrixXd pointwise(const Eigen::Ref<const Eigen::MatrixXd>& points) const;
+
+  [[nodiscard]] const FrameObservations& observations() const { return observations_; }
+
  private:
   FrameObservations observations_;
 };

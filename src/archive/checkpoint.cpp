@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/crc.hpp>
 #include <fstream>
 #include <iterator>
@@ -158,7 +159,41 @@ std::string_view checked(std::string_view text, const std::filesystem::path& pat
   return text.substr(0, body);
 }
 
+/// Settings do not show all that a model consists of, such as the modules that a program imports: a few samples are
+/// evaluated again.
+void require_same_model(const std::filesystem::path& path, const tmcmc::LogLikelihood& log_likelihood,
+                        const tmcmc::State& state) {
+  const Index rows = state.points.rows();
+  const std::array<Index, 3> sampled = {0, rows / 2, rows - 1};
+  const Eigen::MatrixXd points = state.points(sampled, Eigen::all);
+  Eigen::VectorXd now(points.rows());
+  log_likelihood(points, now);
+  for (Index i = 0; i < now.size(); ++i) {
+    const double before = state.log_likelihood[sampled.at(static_cast<std::size_t>(i))];
+    if (now[i] != before) {
+      throw io::InputError(fmt::format(
+          "{}: the model has changed: the log-likelihood of a sample in the checkpoint was {} and is now {}: "
+          "expected the same, or another file",
+          io::printable_path(path), io::format_number(before), io::format_number(now[i])));
+    }
+  }
+}
+
 }  // namespace
+
+std::string file_checksum(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  boost::crc_optimal<64, 0x42F0E1EBA9EA3693, ~0ULL, ~0ULL, true, true> crc;
+  std::vector<char> block(std::size_t{1} << 16U);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    crc.process_bytes(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof()) {
+    throw io::InputError({.path = path, .found = "cannot be read", .expected = "a file"});
+  }
+  return fmt::format("{:016x}", crc.checksum());
+}
 
 void write_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                       const tmcmc::Progress& progress) {
@@ -217,6 +252,9 @@ tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDe
     const io::OutputFile writable(path);
   }
   auto progress = read_checkpoint(path, run);
+  if (progress) {
+    require_same_model(path, log_likelihood, progress->state);
+  }
   const auto keep = [&](const tmcmc::Progress& now) {
     write_checkpoint(path, run, now);
     if (observer) {

@@ -19,6 +19,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "archive/settings.hpp"
 #include "tmcmc/sampler.hpp"
@@ -37,6 +38,11 @@ void write_checkpoint(const std::filesystem::path& path, const RunDescription& r
 [[nodiscard]] std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path,
                                                              const RunDescription& run);
 
+/// CRC-64 (that of xz) of the file's bytes, sixteen hexadecimal digits: to tell versions of a model or its data apart in
+/// RunDescription::model.
+/// \throws io::InputError if the file cannot be read.
+[[nodiscard]] std::string file_checksum(const std::filesystem::path& path);
+
 /// Removes a checkpoint whose results are in place. Only a file is removed, the one that a symbolic link points to; devices,
 /// pipes, descriptors such as /dev/stdout and the link itself stay, and nothing happens if there is no file.
 /// \throws io::OutputError if the file cannot be removed.
@@ -44,9 +50,11 @@ void remove_checkpoint(const std::filesystem::path& path);
 
 /// A run that keeps its progress in a file: it goes on from there if the file exists, else it starts, and writes the file
 /// after the draws from the prior and after each stage. The file stays after the end, so that the next call returns the
-/// result without an evaluation: remove_checkpoint when the result is in place.
+/// result: remove_checkpoint when the result is in place. Before a run goes on, three samples of the file are evaluated again
+/// and must have the same log-likelihoods, so that no result mixes two models.
 /// \param observer  is called after the file was written
-/// \throws as tmcmc::run, read_checkpoint and write_checkpoint; a path that cannot be written is found out at the start.
+/// \throws io::InputError for a model that gives other log-likelihoods, the file untouched; as tmcmc::run, read_checkpoint
+///         and write_checkpoint; a path that cannot be written is found out at the start.
 [[nodiscard]] tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                                                 const tmcmc::LogLikelihood& log_likelihood,
                                                 const tmcmc::Observer& observer = {});

@@ -8,9 +8,12 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <optional>
+#include <system_error>
 
+#include "errors/invalid_value.hpp"
 #include "external/child.hpp"
+#include "external/echo.hpp"
+#include "external/start_failure.hpp"
 #include "io/csv.hpp"
 #include "io/scratch_directory.hpp"
 
@@ -25,39 +28,31 @@ const std::string points_name = "points.csv";
 const std::string results_name = "log_likelihoods.csv";
 const std::string column = "log_likelihood";
 
-std::string end_of(const ChildEnd& end, double timeout_seconds) {
+std::string end_of(const ChildEnd& end, const ProgramOptions& options) {
   switch (end.kind) {
     case ChildEnd::Kind::exited:
-      return end.value == 0 ? std::string() : fmt::format("ended with status {}: expected 0", end.value);
+      return end.value == 0 ? std::string()
+                            : fmt::format("ended with status {}{}: expected 0", end.value,
+                                          explain_command_not_run(options.program, end.value));
     case ChildEnd::Kind::signalled:
       return fmt::format("was ended by signal {} ({}): expected an exit", end.value, strsignal(end.value));
     case ChildEnd::Kind::timed_out:
-      return fmt::format("took more than {} s and was killed", io::format_number(timeout_seconds));
+      return fmt::format("took more than {} s and was killed", io::format_number(options.timeout_seconds));
     case ChildEnd::Kind::not_started:
-      return fmt::format("could not be started: {}", std::strerror(end.value));
+      return "could not be started: " + explain_start_failure(options.program, end.value);
   }
   return {};
-}
-
-/// A log-likelihood, or nothing: NaN and +inf are no likelihoods.
-std::optional<double> log_likelihood_in(const io::CsvTable& table, Eigen::Index row) {
-  try {
-    const double value = table.number_or_nan(static_cast<std::size_t>(row), column);
-    return value < std::numeric_limits<double>::infinity() ? std::optional(value) : std::nullopt;
-  } catch (const io::InputError&) {
-    return std::nullopt;
-  }
 }
 
 }  // namespace
 
 Program::Program(ProgramOptions options) : options_(std::move(options)) {
   if (options_.parameter_names.empty()) {
-    throw std::invalid_argument("parameter_names: expected at least one");
+    throw errors::InvalidValue("parameter_names", "", "at least one name");
   }
   if (!(options_.timeout_seconds >= 0.0) || !std::isfinite(options_.timeout_seconds)) {
-    throw std::invalid_argument(fmt::format("timeout_seconds = {}: expected a finite number of at least 0",
-                                            options_.timeout_seconds));
+    throw errors::InvalidValue("timeout_seconds", io::format_number(options_.timeout_seconds),
+                               "a finite number of at least 0");
   }
   std::error_code error;
   const bool is_file = fs::is_regular_file(options_.program, error);
@@ -87,10 +82,9 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   };
   if (points.cols() != static_cast<Eigen::Index>(options_.parameter_names.size()) ||
       log_likelihood.size() != points.rows()) {
-    throw std::invalid_argument(
-        fmt::format("external::Program: {} x {} points and {} results: expected {} columns and as "
-                    "many results as points",
-                    points.rows(), points.cols(), log_likelihood.size(), options_.parameter_names.size()));
+    throw errors::InvalidValue(
+        "points", fmt::format("{} x {} with {} results", points.rows(), points.cols(), log_likelihood.size()),
+        fmt::format("{} columns and as many results as points", options_.parameter_names.size()));
   }
   if (points.rows() == 0) {
     return;
@@ -106,7 +100,7 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   writer.commit();
 
   const ChildEnd end = run_child({options_.program, input, output}, scratch.path(), options_.timeout_seconds);
-  if (const std::string what = end_of(end, options_.timeout_seconds); !what.empty()) {
+  if (const std::string what = end_of(end, options_); !what.empty()) {
     fail(what, 0, true);
   }
   if (!fs::is_regular_file(output)) {
@@ -116,11 +110,16 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
     const auto table = io::CsvTable::read(output);
     table.require_columns({column});
     const auto rows = static_cast<Eigen::Index>(table.rows());
+    const Echo echo(table, options_.parameter_names);
     for (Eigen::Index i = 0; i < std::min(rows, points.rows()); ++i) {
-      const auto value = log_likelihood_in(table, i);
-      if (!value) {
+      if (const std::string what = echo.mismatch(i, points.row(i).transpose()); !what.empty()) {
+        fail(what, i, false);
+      }
+      const auto row = static_cast<std::size_t>(i);
+      const auto value = table.find_number(row, column);
+      if (!value || !(*value < std::numeric_limits<double>::infinity())) {  // NaN and +inf are no likelihoods
         fail(fmt::format("wrote the log-likelihood '{}': expected a number or -inf",
-                         io::printable(table.cell(static_cast<std::size_t>(i), column))),
+                         io::printable(table.cell(row, column))),
              i, false);
       }
       log_likelihood[i] = *value;
@@ -130,11 +129,9 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
            std::min(rows, points.rows() - 1), false);
     }
   } catch (const io::InputError& error) {
-    std::string what = error.what();
-    if (const auto at = what.find(output); at != std::string::npos) {
-      what.replace(at, output.size(), results_name);
-    }
-    fail("wrote what cannot be read: " + what, 0, true);
+    io::InputFault fault = error.fault();
+    fault.path = results_name;  // its directory is gone when the message is read
+    fail("wrote what cannot be read: " + io::describe(fault), 0, true);
   }
 }
 

@@ -7,7 +7,8 @@
 ///
 /// without a shell, in a directory of its own that is removed afterwards (io::ScratchDirectory); its standard output goes to standard error. It reads
 /// the first file, a header with the names of the parameters and a row a point, and writes the second, a column
-/// `log_likelihood` with a row a point in the same order: decimal numbers, or -inf where the model excludes the point.
+/// `log_likelihood` with a row a point in the same order: decimal numbers, or -inf where the model excludes the point. If it
+/// writes columns with names of parameters too, these have to repeat the points, so that rows in another order are seen.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,14 +35,15 @@ class ProgramError : public std::runtime_error {
 /// The program as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be called by several threads.
 class Program {
  public:
-  /// \throws std::invalid_argument for no parameter or a timeout that is negative or not finite; ProgramError if the program
+  /// \throws errors::InvalidValue for no parameter or a timeout that is negative or not finite; ProgramError if the program
   ///         is not an executable file.
   explicit Program(ProgramOptions options);
 
   /// \param points  n x d
   /// \param log_likelihood  n, overwritten
   /// \throws ProgramError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
-  ///         (it and its process group are killed), or writes no file, other than n rows, or a cell that is neither a number nor minus infinity;
+  ///         (it and its process group are killed), or writes no file, other than n rows, a cell that is neither a number nor minus infinity, or
+  ///         parameters other than those of the row's point;
   ///         io::OutputError if the points cannot be written; io::Interrupted as run_child.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;

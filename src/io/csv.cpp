@@ -3,73 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
+#include <optional>
 #include <utility>
 
 #include "io/csv_bytes.hpp"
+#include "io/csv_text.hpp"
 
 namespace io {
+
+using namespace csv_text;
+
 namespace {
 
 constexpr std::size_t whole = std::string::npos;
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-bool has_outside_quotes(std::string_view text, char wanted) {
-  bool quoted = false;
-  for (const char c : text) {
-    if (c == '"') quoted = !quoted;
-    if (c == wanted && !quoted) return true;
-  }
-  return false;
-}
-
-bool drop_plus(std::string_view& text) {
-  if (!text.starts_with('+')) return true;
-  text.remove_prefix(1);
-  return !text.starts_with('-') && !text.starts_with('+');
-}
-
-// Each parser returns what was expected, or nothing if the text fits.
-template <class Value>
-std::string_view parse_value(std::string_view text, Value& value, std::string_view expected,
-                             std::string_view expected_range) {
-  text = trimmed(text);
-  if (!drop_plus(text)) return expected;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (stop != end || error == std::errc::invalid_argument) return expected;
-  return error == std::errc::result_out_of_range ? expected_range : std::string_view();
-}
-
-std::string_view parse_any_double(std::string_view text, double& value) {
-  if (text.find(',') != whole) return "a number with a decimal point, not a comma";
-  constexpr std::string_view expected = "a number, nan or inf";
-  if (text.find('(') != whole) return expected;  // nan(payload)
-  return parse_value(text, value, expected, "a number within the range of a double");
-}
-
-std::string_view parse_finite(std::string_view text, double& value) {
-  if (text.find(',') != whole) return "a finite number with a decimal point, not a comma";
-  constexpr std::string_view expected = "a finite number";
-  const std::string_view complaint =
-      parse_value(text, value, expected, "a finite number within the range of a double");
-  return complaint.empty() && !std::isfinite(value) ? expected : complaint;
-}
-
-std::string_view parse_integer(std::string_view text, long& value) {
-  return parse_value(text, value, "an integer", "an integer of at most 64 bits");
-}
 
 }  // namespace
 
@@ -81,58 +28,94 @@ CsvTable CsvTable::read(const std::filesystem::path& path) {
   return table;
 }
 
+void CsvTable::complain(std::size_t line, std::string_view column, std::string_view found,
+                        std::string_view expected) const {
+  throw InputError({path_, line, std::string(column), std::string(found), std::string(expected)});
+}
+
 void CsvTable::parse() {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"}) {
     if (buffer_.starts_with(mark)) {
-      throw InputError(fmt::format("{}:1: column 1: value '{}': expected UTF-8 text, not UTF-16",
-                                   printable_path(path_), printable(mark)));
+      complain(1, "1", quoted_value(mark), "UTF-8 text, not UTF-16");
     }
   }
   std::size_t begin = buffer_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  for (std::size_t line = 1; begin < buffer_.size(); ++line) {
+  std::optional<Line> commented;  // above the header, without the signs of a comment
+  const auto refuse_comment = [&](const Line& line) {
+    complain(line.number, "1", quoted_value(fmt::format("# {}", view({line.begin, line.end - line.begin}))),
+             "the header, without lines that begin with # above it");
+  };
+  for (std::size_t number = 1; begin < buffer_.size(); ++number) {
     const std::size_t newline = std::min(buffer_.find('\n', begin), buffer_.size());
     const std::size_t end = newline > begin && buffer_[newline - 1] == '\r' ? newline - 1 : newline;
     const std::string_view text = view({begin, end - begin});
-    const bool blank = std::all_of(text.begin(), text.end(), is_blank);
-    if (!blank && names_.empty()) {
-      parse_header(begin, end, line);
-    } else if (!blank) {
-      parse_line(begin, end, line, cells_);
-      lines_.push_back(line);
-    }
+    const Line line{begin + (text.size() - without_leading_blanks(text).size()), end, number};
     begin = newline + 1;
+    if (line.begin == end) continue;
+    if (width_ > 0) {
+      parse_row(line);
+    } else if (commented) {
+      if (!is_row_below(view({commented->begin, commented->end - commented->begin}), text)) {
+        refuse_comment(*commented);
+      }
+      parse_header(*commented);
+      parse_row(line);
+    } else if (buffer_[line.begin] == '#') {
+      require_text(line, 0);
+      commented = line;
+      while (commented->begin < end &&
+             (buffer_[commented->begin] == '#' || is_blank(buffer_[commented->begin]))) {
+        ++commented->begin;
+      }
+    } else {
+      parse_header(line);
+    }
   }
-  if (names_.empty())
-    throw InputError(fmt::format("{}:1: empty file: expected a header line", printable_path(path_)));
-  if (lines_.empty()) {
-    throw InputError(fmt::format("{}:{}: no rows: expected at least one row after the header",
-                                 printable_path(path_), header_line_));
-  }
+  if (width_ == 0 && commented) refuse_comment(*commented);
+  if (width_ == 0) complain(1, "", "empty file", "a header line");
+  if (lines_.empty()) complain(header_line_, "", "no rows", "at least one row after the header");
 }
 
-void CsvTable::parse_header(std::size_t begin, std::size_t end, std::size_t line) {
-  const std::string_view text = view({begin, end - begin});
+void CsvTable::parse_header(const Line& line) {
+  const std::string_view text = view({line.begin, line.end - line.begin});
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
     if (text.find(',') == whole && has_outside_quotes(trimmed(text), separator)) {
-      throw InputError(fmt::format("{}:{}: header '{}': expected columns separated by commas, not by {}",
-                                   printable_path(path_), line, printable(text), name));
+      complain(line.number, "", fmt::format("header '{}'", printable(text)),
+               fmt::format("columns separated by commas, not by {}", name));
     }
   }
   std::vector<Cell> header;
-  parse_line(begin, end, line, header);
-  header_line_ = line;
-  for (const Cell cell : header) {
-    const std::string_view name = view(cell);
-    if (name.empty()) {
-      throw InputError(fmt::format("{}:{}: column {}: value '': expected a column name",
-                                   printable_path(path_), line, names_.size() + 1));
+  parse_line(line, header);
+  header_line_ = line.number;
+  for (std::size_t place = 0; place < header.size(); ++place) {
+    const std::string_view name = view(header[place]);
+    if (name.empty() && place == 0 && header.size() > 1) {
+      has_row_names_ = true;
+      continue;
     }
-    if (!places_.emplace(name, names_.size()).second) {
-      throw InputError(fmt::format("{}:{}: column {}: value '{}': expected each column name once",
-                                   printable_path(path_), line, names_.size() + 1, printable(name)));
+    if (name.empty()) {
+      complain(
+          line.number, fmt::format("{}", place + 1), "value ''",
+          place == 0 ? "a column name" : "a column name, which only row names in a first column may lack");
+    }
+    if (!places_.emplace(name, place).second) {
+      complain(line.number, fmt::format("{}", place + 1), quoted_value(name), "each column name once");
     }
     names_.emplace_back(name);
+  }
+  width_ = header.size();
+}
+
+void CsvTable::parse_row(const Line& line) {
+  parse_line(line, cells_);
+  lines_.push_back(line.number);
+  if (!has_row_names_) return;
+  const std::string_view name = view(cells_[cells_.size() - width_]);
+  double number = 0.0;
+  if (parse_any_double(name, number).empty() && number != std::floor(number)) {
+    complain(line.number, "1", quoted_value(name),
+             "a row number or a row name, since the column has no name in the header");
   }
 }
 
@@ -146,61 +129,78 @@ std::size_t CsvTable::closing_quote(std::size_t open, std::size_t end) const {
   return end;
 }
 
-void CsvTable::parse_line(std::size_t begin, std::size_t end, std::size_t line, std::vector<Cell>& cells) {
+std::string CsvTable::column_label(std::size_t place) const {
+  const std::size_t unnamed = has_row_names_ ? 1 : 0;
+  return place < unnamed || place >= width_ ? fmt::format("{}", place + 1)
+                                            : fmt::format("'{}'", printable(names_[place - unnamed]));
+}
+
+void CsvTable::require_text(const Line& part, std::size_t place) const {
+  const std::string_view text = view({part.begin, part.end - part.begin});
+  if (text.find('\0') != whole) {
+    complain(part.number, column_label(place), quoted_value(text), "UTF-8 text without NUL bytes");
+  }
+  if (text.find('\r') != whole) {
+    complain(part.number, column_label(place), quoted_value(text), "lines that end in LF or CRLF");
+  }
+}
+
+void CsvTable::parse_line(const Line& line, std::vector<Cell>& cells) {
+  const auto& [begin, end, number] = line;
   const std::size_t first_cell = cells.size();
-  const auto complain = [&](std::string_view value, std::string_view expected) {
-    const std::size_t column = cells.size() - first_cell;
-    const std::string name = column < names_.size() ? fmt::format("'{}'", printable(names_[column]))
-                                                    : fmt::format("{}", column + 1);
-    throw InputError(
-        fmt::format("{}:{}: column {}: {}: expected {}", printable_path(path_), line, name, value, expected));
-  };
+  const bool is_comment = width_ > 0 && buffer_[begin] == '#';
+  const std::string start = is_comment ? quoted_value(view({begin, end - begin})) : std::string();
+  const auto column = [&] { return column_label(cells.size() - first_cell); };
   const auto value_of = [&](std::size_t from, std::size_t to) {
-    return fmt::format("value '{}'", printable(view({from, to - from})));
+    return quoted_value(view({from, to - from}));
   };
-  const auto require_text = [&](std::size_t from, std::size_t to) {
-    const std::string_view text = view({from, to - from});
-    if (text.find('\0') != whole) complain(value_of(from, to), "UTF-8 text without NUL bytes");
-    if (text.find('\r') != whole) complain(value_of(from, to), "lines that end in LF or CRLF");
+  const auto refuse_width = [&](const std::string& found, std::string_view how_many) {
+    if (is_comment) {
+      complain(number, column_label(0), start,
+               fmt::format("{} cells, as in the header, and no comments", width_));
+    }
+    complain(number, column(), found, fmt::format("{} cells, as in the header, not {}", width_, how_many));
   };
   std::size_t position = begin;
   for (;; ++position) {
-    std::size_t start = position;
-    while (start < end && is_blank(buffer_[start])) ++start;
-    Cell cell{start, 0};
-    if (start < end && buffer_[start] == '"') {
-      const std::size_t close = closing_quote(start, end);
-      require_text(start, close);
-      if (close == end) complain(value_of(start, end), "a closing quote on the same line");
+    std::size_t from = position;
+    while (from < end && is_blank(buffer_[from])) ++from;
+    Cell cell{from, 0};
+    if (from < end && buffer_[from] == '"') {
+      const std::size_t close = closing_quote(from, end);
+      require_text({from, close, number}, cells.size() - first_cell);
+      if (close == end) complain(number, column(), value_of(from, end), "a closing quote on the same line");
       position = close + 1;
       while (position < end && is_blank(buffer_[position])) ++position;
       if (position < end && buffer_[position] != ',') {
-        complain(value_of(start, end), "a comma after the closing quote");
+        complain(number, column(), value_of(from, end), "a comma after the closing quote");
       }
-      for (std::size_t i = start + 1; i < close; ++i) {
+      for (std::size_t i = from + 1; i < close; ++i) {
         if (buffer_[i] == '"') ++i;
-        buffer_[start + cell.size++] = buffer_[i];
+        buffer_[from + cell.size++] = buffer_[i];
       }
     } else {
-      position = start + std::min(view({start, end - start}).find(','), end - start);
+      position = from + std::min(view({from, end - from}).find(','), end - from);
       std::size_t stop = position;
-      while (stop > start && is_blank(buffer_[stop - 1])) --stop;
-      require_text(start, stop);
-      cell.size = stop - start;
-      if (view(cell).find('"') != whole) complain(value_of(start, stop), "quotes around the whole cell");
+      while (stop > from && is_blank(buffer_[stop - 1])) --stop;
+      require_text({from, stop, number}, cells.size() - first_cell);
+      cell.size = stop - from;
+      if (view(cell).find('"') != whole) {
+        complain(number, column(), value_of(from, stop), "quotes around the whole cell");
+      }
     }
     const std::size_t found = cells.size() - first_cell;
-    if (!names_.empty() && found == names_.size()) {
-      complain(fmt::format("value '{}'", printable(view(cell))),
-               fmt::format("{} cells, as in the header, not more", names_.size()));
+    if (width_ > 0 && found == width_) {
+      const bool is_one_more = lines_.empty() && position >= end && cell.size > 0;
+      refuse_width(
+          quoted_value(view(cell)),
+          is_one_more ? "more (row names need a column in the header too, and decimals a point)" : "more");
     }
     cells.push_back(cell);
     if (position >= end) break;
   }
   const std::size_t found = cells.size() - first_cell;
-  if (found < names_.size()) {
-    complain("missing value", fmt::format("{} cells, as in the header, not {}", names_.size(), found));
-  }
+  if (found < width_) refuse_width("missing value", fmt::format("{}", found));
 }
 
 bool CsvTable::has(std::string_view column) const noexcept {
@@ -215,21 +215,22 @@ std::size_t CsvTable::index(std::string_view column) const {
 void CsvTable::require_columns(std::initializer_list<std::string_view> columns) const {
   for (const std::string_view column : columns) {
     if (has(column)) continue;
-    throw InputError(fmt::format("{}:{}: header '{}': expected a column '{}'", printable_path(path_),
-                                 header_line_, printable(fmt::format("{}", fmt::join(names_, ",")), 200),
-                                 printable(column)));
+    complain(header_line_, "",
+             fmt::format("header '{}{}'", has_row_names_ ? "," : "",
+                         printable(fmt::format("{}", fmt::join(names_, ",")), 200)),
+             fmt::format("a column '{}'{}", printable(column),
+                         has_row_names_ ? " (the first one, without a name, is taken for row names)" : ""));
   }
 }
 
 std::string_view CsvTable::cell(std::size_t row, std::string_view column) const {
   const std::size_t i = index(column);
   line(row);
-  return view(cells_[row * names_.size() + i]);
+  return view(cells_[row * width_ + i]);
 }
 
 void CsvTable::fail(std::size_t row, std::string_view column, std::string_view expected) const {
-  throw InputError(fmt::format("{}:{}: column '{}': value '{}': expected {}", printable_path(path_),
-                               line(row), printable(column), printable(cell(row, column)), expected));
+  complain(line(row), fmt::format("'{}'", printable(column)), quoted_value(cell(row, column)), expected);
 }
 
 template <class Value, class Parser>
@@ -237,7 +238,7 @@ std::vector<Value> CsvTable::parsed_column(std::string_view column, Parser parse
   const std::size_t i = index(column);
   std::vector<Value> values(rows());
   for (std::size_t row = 0; row < rows(); ++row) {
-    const std::string_view expected = parser(view(cells_[row * names_.size() + i]), values[row]);
+    const std::string_view expected = parser(view(cells_[row * width_ + i]), values[row]);
     if (!expected.empty()) fail(row, column, expected);
   }
   return values;
@@ -251,11 +252,9 @@ std::vector<double> CsvTable::numbers_or_nan(std::string_view column) const {
   return parsed_column<double>(column, parse_any_double);
 }
 
-double CsvTable::number_or_nan(std::size_t row, std::string_view column) const {
+std::optional<double> CsvTable::find_number(std::size_t row, std::string_view column) const {
   double value = 0.0;
-  const std::string_view expected = parse_any_double(cell(row, column), value);
-  if (!expected.empty()) fail(row, column, expected);
-  return value;
+  return parse_any_double(cell(row, column), value).empty() ? std::optional(value) : std::nullopt;
 }
 
 std::vector<long> CsvTable::integers(std::string_view column) const {

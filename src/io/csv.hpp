@@ -6,6 +6,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ namespace io {
 ///  - lines end in LF or CRLF; a UTF-8 byte order mark and blank lines are skipped;
 ///  - blanks and tabs around a cell are dropped, inside quotes they are kept;
 ///  - a quoted cell ends on its own line;
+///  - there are no comments: a line above the header that begins with `#` is refused, unless it is the header itself, as
+///    numpy.savetxt writes it: it names as many columns as the next line has cells, and one of these is a number;
+///  - a first column without a name holds row numbers or row names (pandas, R) and is left out;
 ///  - the separator is the comma, the decimal sign the point, whatever the locale.
 ///
 /// Every complaint about the file is an InputError of one line, such as
@@ -31,9 +35,9 @@ namespace io {
 class CsvTable {
  public:
   /// Reads the whole file. Throws InputError if it cannot be read, has no header or no row, if a column name
-  /// is empty or repeated, if a row has not as many cells as the header, if a quote is not closed or stands
-  /// inside an unquoted cell, or if the file is UTF-16, holds NUL bytes or a CR without LF, is separated by
-  /// semicolons or tabs, or has more than 4 GiB.
+  /// is empty (but for that of row numbers or names) or repeated, if a row has not as many cells as the header,
+  /// if a quote is not closed or stands inside an unquoted cell, or if the file is UTF-16, holds NUL bytes or a
+  /// CR without LF, is separated by semicolons or tabs, or has more than 4 GiB.
   static CsvTable read(const std::filesystem::path& path);
 
   /// The path as given to read().
@@ -52,6 +56,9 @@ class CsvTable {
   /// std::out_of_range if there is no such row.
   std::string_view cell(std::size_t row, std::string_view column) const;
 
+  /// The number in one cell, as numbers_or_nan reads it; nothing if it is none. Throws as cell().
+  std::optional<double> find_number(std::size_t row, std::string_view column) const;
+
   /// Throws InputError, naming the first column that is missing, unless all of them exist. Others may exist
   /// too.
   void require_columns(std::initializer_list<std::string_view> columns) const;
@@ -61,9 +68,8 @@ class CsvTable {
   /// (1e400, 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
   std::vector<double> numbers(std::string_view column) const;         ///< finite numbers only
   std::vector<double> numbers_or_nan(std::string_view column) const;  ///< nan, inf and -inf too, in any case
-  double number_or_nan(std::size_t row, std::string_view column) const;  ///< one cell of the same
-  std::vector<long> integers(std::string_view column) const;             ///< no point and no exponent
-  std::vector<std::string> text(std::string_view column) const;          ///< any text, the empty one included
+  std::vector<long> integers(std::string_view column) const;          ///< no point and no exponent
+  std::vector<std::string> text(std::string_view column) const;       ///< any text, the empty one included
 
   /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected` completes
   /// the sentence "expected ...".
@@ -74,11 +80,21 @@ class CsvTable {
     std::size_t begin;
     std::size_t size;
   };
+  struct Line {
+    std::size_t begin;
+    std::size_t end;
+    std::size_t number;
+  };
   CsvTable() = default;
   void parse();
-  void parse_line(std::size_t begin, std::size_t end, std::size_t line, std::vector<Cell>& cells);
+  void parse_line(const Line& line, std::vector<Cell>& cells);
   std::size_t closing_quote(std::size_t open, std::size_t end) const;
-  void parse_header(std::size_t begin, std::size_t end, std::size_t line);
+  void parse_header(const Line& line);
+  void parse_row(const Line& line);
+  void require_text(const Line& part, std::size_t place) const;
+  [[nodiscard]] std::string column_label(std::size_t place) const;
+  [[noreturn]] void complain(std::size_t line, std::string_view column, std::string_view found,
+                             std::string_view expected) const;
   std::size_t index(std::string_view column) const;
   std::string_view view(Cell cell) const { return std::string_view(buffer_).substr(cell.begin, cell.size); }
   template <class Value, class Parser>
@@ -88,6 +104,8 @@ class CsvTable {
   std::string buffer_;
   std::vector<std::string> names_;
   std::map<std::string, std::size_t, std::less<>> places_;  // of the names
+  std::size_t width_ = 0;                                   // cells of a line, those of row names too
+  bool has_row_names_ = false;                              // in a first column without a name
   std::size_t header_line_ = 0;
   std::vector<Cell> cells_;  // row by row
   std::vector<std::size_t> lines_;

@@ -19,14 +19,16 @@ constexpr std::size_t read_chunk_bytes = std::size_t{1} << 18U;
 constexpr std::size_t largest_file_bytes = std::size_t{1} << 32U;
 
 [[noreturn]] void fail_unreadable(const std::filesystem::path& path, int error) {
-  throw InputError(fmt::format("{}: cannot be read: {}: expected a CSV file", printable_path(path),
-                               std::generic_category().message(error)));
+  throw InputError({.path = path,
+                    .found = "cannot be read: " + std::generic_category().message(error),
+                    .expected = "a CSV file"});
 }
 
 void require_size(const std::filesystem::path& path, std::size_t bytes) {
   if (bytes <= largest_file_bytes) return;
-  throw InputError(fmt::format("{}: {} bytes or more: expected a CSV file of at most {} bytes",
-                               printable_path(path), bytes, largest_file_bytes));
+  throw InputError({.path = path,
+                    .found = fmt::format("{} bytes or more", bytes),
+                    .expected = fmt::format("a CSV file of at most {} bytes", largest_file_bytes)});
 }
 
 class ReadDescriptor {

@@ -35,7 +35,7 @@ bool starts_with_mark(std::string_view text) {
 
 bool needs_quotes(std::string_view text) {
   constexpr std::string_view blanks = " \t";
-  return text.empty() || starts_with_mark(text) ||
+  return text.empty() || starts_with_mark(text) || text.front() == '#' ||
          text.find_first_of(",;\t\"\r\n") != std::string_view::npos ||
          blanks.find(text.front()) != std::string_view::npos ||
          blanks.find(text.back()) != std::string_view::npos;

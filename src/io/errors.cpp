@@ -29,6 +29,12 @@ std::size_t printable_length(std::string_view text) {
 
 }  // namespace
 
+std::string describe(const InputFault& fault) {
+  return fmt::format("{}{}{}: {}: expected {}", printable_path(fault.path),
+                     fault.line > 0 ? fmt::format(":{}", fault.line) : "",
+                     fault.column.empty() ? "" : ": column " + fault.column, fault.found, fault.expected);
+}
+
 std::string printable(std::string_view text, std::size_t max_bytes) {
   std::string out;
   while (!text.empty()) {

@@ -4,9 +4,11 @@
 #include <netcdf_mem.h>
 
 #include <cstdlib>
-#include <memory>
 #include <numeric>
-#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "errors/invalid_value.hpp"
 
 namespace netcdf {
 
@@ -14,7 +16,7 @@ namespace {
 
 void check(int status, const std::string& what) {
   if (status != NC_NOERR) {
-    throw std::invalid_argument("NetCDF, " + what + ": " + nc_strerror(status));
+    throw errors::InvalidValue("NetCDF, " + what, nc_strerror(status), "what NetCDF-4 can hold");
   }
 }
 
@@ -52,9 +54,9 @@ class Group {
     const int size = dimension(along, columns.front().second.size(), true);
     for (const auto& [name, values] : columns) {
       if (values.size() != columns.front().second.size()) {
-        throw std::invalid_argument("column " + name + ": " + std::to_string(values.size()) +
-                                    " values: expected " + std::to_string(columns.front().second.size()) +
-                                    ", as in " + columns.front().first);
+        throw errors::InvalidValue(
+            "values of " + name, std::to_string(values.size()),
+            std::to_string(columns.front().second.size()) + ", as of " + columns.front().first);
       }
       variable(name, {size}, values.data());
     }
@@ -90,33 +92,83 @@ void fill(int file, const InferenceData& data) {
   Group statistics(file, "sample_stats");
   const std::vector<int> same = {statistics.dimension("chain", 1, true),
                                  statistics.dimension("draw", draws, true)};
-  statistics.variable("log_likelihood", same, data.log_likelihood.data());
+  statistics.variable("lp", same, data.log_likelihood.data());
   statistics.columns("stage", data.stages);
 
-  Group(file, "observed_data").columns("observation", data.observations);
+  if (!data.pointwise_log_likelihood.empty()) {
+    Group group(file, "log_likelihood");
+    std::vector<int> dimensions = {group.dimension("chain", 1, true), group.dimension("draw", draws, true)};
+    const Eigen::Index observations = data.pointwise_log_likelihood.front().second.cols();
+    dimensions.push_back(group.dimension("observation", static_cast<std::size_t>(observations), true));
+    for (const auto& [name, values] : data.pointwise_log_likelihood) {
+      if (values.rows() != data.samples.rows() || values.cols() != observations) {
+        throw errors::InvalidValue("log-likelihoods of " + name,
+                                   std::to_string(values.rows()) + " x " + std::to_string(values.cols()),
+                                   "a row a sample and a column an observation");
+      }
+      const Eigen::MatrixXd draw_by_draw = values.transpose();
+      group.variable(name, dimensions, draw_by_draw.data());
+    }
+  }
+  for (const auto& [name, columns] :
+       {std::pair{"observed_data", &data.observed}, {"constant_data", &data.constant}}) {
+    if (!columns->empty()) {
+      Group(file, name).columns("observation", *columns);
+    }
+  }
 }
 
+/// A file that is written in memory.
+class MemoryFile {
+ public:
+  MemoryFile() { check(nc_create_mem("inference_data", NC_NETCDF4, 0, &id_), "file in memory"); }
+  ~MemoryFile() {
+    if (id_ >= 0) {
+      nc_abort(id_);
+    }
+    std::free(bytes_.memory);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  [[nodiscard]] int id() const { return id_; }
+
+  /// Ends the file; its bytes live as long as this object.
+  std::string_view finish() {
+    check(nc_close_memio(std::exchange(id_, -1), &bytes_), "end of the file");
+    return {static_cast<const char*>(bytes_.memory), bytes_.size};
+  }
+
+ private:
+  int id_ = -1;
+  NC_memio bytes_{};
+};
+
 }  // namespace
+
+void require_parameter_name(const std::string& name) {
+  const MemoryFile file;
+  const Group posterior(file.id(), "posterior");
+  int variable = 0;
+  if (name == "chain" || name == "draw" ||
+      nc_def_var(posterior.id(), name.c_str(), NC_DOUBLE, 0, nullptr, &variable) != NC_NOERR) {
+    throw errors::InvalidValue(
+        "parameter_name", name,
+        "a name that NetCDF allows, other than chain and draw: a letter, digit or _ first, "
+        "no / and no blank at the end");
+  }
+}
 
 void write_inference_data(io::OutputFile& output, const InferenceData& data) {
   if (data.samples.cols() != static_cast<Eigen::Index>(data.parameter_names.size()) ||
       data.samples.rows() == 0 || data.log_likelihood.size() != data.samples.rows()) {
-    throw std::invalid_argument(
-        "inference data: expected samples with a column for each parameter name and a log-likelihood "
-        "for each row");
+    throw errors::InvalidValue(
+        "samples", std::to_string(data.samples.rows()) + " x " + std::to_string(data.samples.cols()),
+        "a column for each parameter name and a log-likelihood for each row");
   }
-  int file = 0;
-  check(nc_create_mem("inference_data", NC_NETCDF4, 0, &file), "file in memory");
-  try {
-    fill(file, data);
-  } catch (...) {
-    nc_abort(file);
-    throw;
-  }
-  NC_memio memory{};
-  check(nc_close_memio(file, &memory), "end of the file");
-  const std::unique_ptr<void, decltype(&std::free)> owner(memory.memory, &std::free);
-  output.write({static_cast<const char*>(memory.memory), memory.size});
+  MemoryFile file;
+  fill(file.id(), data);
+  output.write(file.finish());
 }
 
 }  // namespace netcdf

@@ -4,13 +4,16 @@
 ///
 /// Groups and variables:
 ///
-///     posterior      one variable a parameter, (chain, draw); attributes of the file are repeated here
-///     sample_stats   log_likelihood (chain, draw); beta, effective_sample_size, acceptance_rate, log_evidence_increment and
-///                    evaluations of the stages (stage)
-///     observed_data  one variable a column of the observations, (observation)
+///     posterior       one variable a parameter, (chain, draw); attributes of the file are repeated here
+///     sample_stats    lp (chain, draw), the joint log-likelihood; beta, effective_sample_size, acceptance_rate,
+///                     log_evidence_increment and evaluations of the stages (stage)
+///     log_likelihood  of each observation, (chain, draw, observation), under the name of the variable observed
+///     observed_data   what was measured, (observation)
+///     constant_data   what else the likelihood knows of each measurement, (observation)
 ///
-/// There is one chain: the samples of a population are exchangeable, and their effective sample size is known to the sampler
-/// alone (attributes effective_sample_size_NAME). The file holds no time: the same results give the same bytes.
+/// The last three are there if the model gives them. There is one chain: the samples of a population are exchangeable, and their
+/// effective sample size is known to the sampler alone (attributes effective_sample_size_NAME). The file holds no time: the same
+/// results give the same bytes.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,17 +30,32 @@ using Column = std::pair<std::string, std::vector<double>>;
 
 /// What a file holds.
 struct InferenceData {
-  std::vector<std::string> parameter_names;                ///< d
-  Eigen::MatrixXd samples;                                 ///< n x d
-  Eigen::VectorXd log_likelihood;                          ///< n
-  std::vector<Column> stages;                              ///< of the same length each
-  std::vector<Column> observations;                        ///< of the same length each
-  std::vector<std::pair<std::string, double>> numbers;     ///< attributes, such as log_evidence
-  std::vector<std::pair<std::string, std::string>> texts;  ///< attributes, such as inference_library
+  /// Names of the d parameters.
+  std::vector<std::string> parameter_names = {};
+  /// n x d.
+  Eigen::MatrixXd samples = {};
+  /// Of each sample and all observations, n.
+  Eigen::VectorXd log_likelihood = {};
+  /// Columns of one length, the number of stages.
+  std::vector<Column> stages = {};
+  /// Columns of one length, the number of observations; none if the likelihood is not one of known observations.
+  std::vector<Column> observed = {};
+  /// Columns of the same length.
+  std::vector<Column> constant = {};
+  /// Log-likelihoods of single observations by the name of an observed variable, n x observations each.
+  std::vector<std::pair<std::string, Eigen::MatrixXd>> pointwise_log_likelihood = {};
+  /// Attributes, such as log_evidence.
+  std::vector<std::pair<std::string, double>> numbers = {};
+  /// Attributes, such as inference_library.
+  std::vector<std::pair<std::string, std::string>> texts = {};
 };
 
+/// Refuses what cannot be the name of a variable in the group of the posterior.
+/// \throws errors::InvalidValue with the name as its value.
+void require_parameter_name(const std::string& name);
+
 /// Writes the whole file into an output that the caller has opened, and commits.
-/// \throws io::OutputError; std::invalid_argument for lengths that do not agree or names that NetCDF refuses.
+/// \throws io::OutputError; errors::InvalidValue for lengths that do not agree or names that NetCDF refuses.
 void write_inference_data(io::OutputFile& output, const InferenceData& data);
 
 }  // namespace netcdf

@@ -146,9 +146,15 @@ TEST_CASE("a run that dies at any evaluation and is started again and again is t
     for (std::size_t s = 0; s < stages.size(); ++s) {
       CHECK(stages[s] == static_cast<Index>(s));  // no stage was done twice
     }
+    Index evaluated = 0;
     check_same_bits(archive::run_with_checkpoint(path, described(options),
-                                                 [](const auto&, auto) { throw std::logic_error("called"); }),
+                                                 [&](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                                     Eigen::Ref<Eigen::VectorXd> values) {
+                                                   evaluated += points.rows();
+                                                   ridge().log_likelihood(points, values);
+                                                 }),
                     whole.result);
+    CHECK(evaluated == 3);  // to see that the model is the same
     CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 1);
   }
 }
@@ -337,6 +343,50 @@ TEST_CASE("a file whose checksum fits is still read with care", "[archive][fault
   }
   put(written.path, forged(written.text, "stage = 2\n", "stage = 2\n"));
   CHECK(refusal(written.path, written.run) == "accepted");
+}
+
+TEST_CASE("a model that has changed since the checkpoint is refused, and nothing is touched",
+          "[archive][fault]") {
+  const Options options = small(false);
+  const auto whole = run_whole(options);
+  for (std::size_t stage = 0; stage < whole.progress.size(); ++stage) {
+    for (const double change : {std::numeric_limits<double>::epsilon(), 1.0}) {
+      CAPTURE(stage, change);
+      const TemporaryDirectory directory;
+      const auto path = directory.path() / "run.checkpoint";
+      write_checkpoint(path, described(options), whole.progress[stage]);
+      const std::string before = content(path);
+      Index evaluated = 0;
+      const auto changed = [&](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                               Eigen::Ref<Eigen::VectorXd> values) {
+        evaluated += points.rows();
+        ridge().log_likelihood(points, values);
+        values[values.size() - 1] *= 1.0 + change;  // one sample is enough
+      };
+      CHECK_THROWS_WITH(
+          archive::run_with_checkpoint(path, described(options), changed),
+          StartsWith(path.string() + ": the model has changed: the log-likelihood of a sample in the "
+                                     "checkpoint was -") &&
+              Contains(" and is now -"));
+      CHECK(evaluated == 3);
+      CHECK(content(path) == before);
+    }
+  }
+}
+
+TEST_CASE("the checksum of a file is that of xz and sees every byte", "[archive]") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "model.py";
+  put(path, "123456789");
+  CHECK(archive::file_checksum(path) == "995dc9bbdf1939fa");  // check value of CRC-64/XZ
+  std::string large(200000, 'x');
+  put(path, large);
+  const std::string before = archive::file_checksum(path);
+  large.back() = 'y';
+  put(path, large);
+  CHECK(archive::file_checksum(path) != before);
+  CHECK_THROWS_WITH(archive::file_checksum(directory.path() / "none"), Contains("none: cannot be read"));
+  CHECK_THROWS_AS(archive::file_checksum(directory.path()), io::InputError);
 }
 
 TEST_CASE("a path that cannot be written is found out before the first evaluation", "[archive][fault]") {

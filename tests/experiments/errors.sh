@@ -12,6 +12,10 @@ printf '\377\376a\0,\0b\0\n\0' >utf16.csv
 printf 'a,b\n1\n' >short.csv
 printf 'a,b\n1,2,3\n' >long.csv
 printf 'a,b\n1,2\n' >other.csv
+printf '# rig 2\na,b\n1,2\n' >comment.csv
+printf 'a,b\n1,2\n# rig 2\n' >between.csv
+printf ',a\n0.5,2\n' >unnamed.csv
+printf '#!/no/such/sh\n' >interpreter.sh && chmod +x interpreter.sh
 { timeout -s KILL 1 "$bin/replicated_study" $small --studies 100000 --output kept.csv; } 2>/dev/null
 
 # The first line of a file that the option takes, and a row of abc.

@@ -19,10 +19,18 @@ check "the NetCDF file has the same bytes" cmp -s whole.nc again.nc
 # Readers that are not ours.
 if command -v ncdump >/dev/null; then
   header=$(ncdump -h whole.nc)
-  for text in 'group: posterior' 'group: sample_stats' 'group: observed_data' 'double stiffness_1(chain, draw)' 'chain = 1 ;' \
-    'double log_likelihood(chain, draw)' 'double frequency_hz(observation)'; do
+  for text in 'group: posterior' 'group: sample_stats' 'group: log_likelihood' 'group: observed_data' 'group: constant_data' \
+    'double stiffness_1(chain, draw)' 'chain = 1 ;' 'double lp(chain, draw)' 'double frequency_hz(chain, draw, observation)' \
+    'double frequency_hz(observation)' 'double mode(observation)'; do
     check "ncdump: $text" grep -qF "$text" <<<"$header"
   done
+  check "no joint log-likelihood under the name of the pointwise one" test -z "$(grep -F ' log_likelihood(' <<<"$header")"
+  numbers_of() { ncdump -p 17,17 -v "$1" whole.nc | sed -n "/ ${1##*/} = *$/,/;/p" | sed 's/.* = *$//' | tr -d ' ;}' | tr ',' '\n' | grep .; }
+  check "ncdump: the pointwise log-likelihoods of a sample add up to the joint one" awk -F, '
+    FILENAME == ARGV[1] { point[n++] = $1 + 0; next } FILENAME == ARGV[2] { joint[m++] = $1 + 0; next }
+    END { if (m < 1000 || n != 16 * m) exit 1
+          for (i = 0; i < m; i++) { sum = 0; for (k = 0; k < 16; k++) sum += point[16 * i + k]
+            if ((sum - joint[i]) ^ 2 > 1e-18) exit 1 } }' <(numbers_of log_likelihood/frequency_hz) <(numbers_of sample_stats/lp)
   check "ncdump reads the samples" awk -v a="$(awk -F, 'NR == 2 { print $1 }' whole.csv)" -v b="$(ncdump -v posterior/stiffness_1 -p 17,17 whole.nc |
     sed -n '/stiffness_1 = *$/,$p' | grep -oE '[0-9]+\.[0-9]+' | head -n 1)" 'BEGIN { exit !(a + 0 == b + 0 && a > 0) }'
 else echo 'ncdump is not installed: left out'; fi
@@ -34,6 +42,16 @@ rows = list(csv.DictReader(open("whole.csv")))
 assert posterior.sizes == {"chain": 1, "draw": len(rows)}
 for name in ("stiffness_1", "stiffness_2", "relative_noise"):
     assert [float(row[name]) for row in rows] == posterior[name].values[0].tolist()
+statistics = xarray.open_dataset("whole.nc", group="sample_stats", engine="h5netcdf")
+joint = statistics["lp"].values[0]
+assert [float(row["log_likelihood"]) for row in rows] == joint.tolist()
+assert "log_likelihood" not in statistics
+observed = xarray.open_dataset("whole.nc", group="observed_data", engine="h5netcdf")
+assert list(observed.data_vars) == ["frequency_hz"] and observed["frequency_hz"].values[8] == 11.7691
+assert xarray.open_dataset("whole.nc", group="constant_data", engine="h5netcdf")["mode"].values.tolist() == 8 * [1] + 8 * [2]
+pointwise = xarray.open_dataset("whole.nc", group="log_likelihood", engine="h5netcdf")["frequency_hz"]
+assert pointwise.dims == ("chain", "draw", "observation") and pointwise.sizes["observation"] == 16
+assert abs(pointwise.sum("observation").values[0] - joint).max() < 1e-9
 PY
 else echo 'xarray is not installed: left out'; fi
 
@@ -68,6 +86,80 @@ expect_error 1 'missing.sh: No such file' $own --command ./missing.sh --output f
 expect_error 1 'expected a program that can be run' $own --command ./whole.csv --output failed.csv
 check "the directories of the points are gone" test -z "$(ls "$TMPDIR")"
 
+# What keeps a program from being started is said: its interpreter, the ends of its lines, a first line that is missing.
+starts_not() { chmod +x program.sh; expect_error "$@" $own --threads 1 --command ./program.sh --output failed.csv; }
+printf '#!/bin/sh\r\nexit 0\r\n' >program.sh
+starts_not 1 "the interpreter '/bin/sh\r' of its first line: No such file or directory; the line ends in CR LF, as on Windows"
+printf '#! /no/such/python3 -u\nprint()\n' >program.sh
+starts_not 1 "the interpreter '/no/such/python3' of its first line: No such file or directory: expected"
+printf '#!%s/data\n' "$work" >program.sh
+starts_not 1 "the interpreter '$work/data' of its first line: Permission denied"
+printf '#!/usr/bin/env python3\r\nprint()\r\n' >program.sh
+$own --threads 1 --command ./program.sh --output failed.csv 2>error.txt
+check "env cannot find python3\\r: $(tail -1 error.txt)" grep -qF "ended with status 127 (a command that could not be run; the first line is '#!/usr/bin/env python3\r', which ends in CR LF" error.txt
+printf 'print()\n' >program.sh
+starts_not 1 'Exec format error: expected a first line that begins with #!, such as #!/bin/sh'
+printf '\357\273\277#!/bin/sh\nexit 0\n' >program.sh
+starts_not 1 'expected no byte order mark before the #! of the first line'
+printf '\177ELF of another machine' >program.sh
+starts_not 1 'expected an executable for this machine'
+: >program.sh
+starts_not 1 'Exec format error'
+for directory in /no/such/directory "$work/whole.csv"; do
+  TMPDIR=$directory expect_error 2 "$directory" $own --command data/examples/two_storey_frame.py --output failed.csv
+done
+
+# A program that writes its points back beside the results: columns with the names of parameters are compared.
+echoes() { script "awk -F, -v OFS=, 'NR == 1 { print $1; next } { l = -(\$1 - 1) ^ 2 - (\$2 - 1) ^ 2; print $2 }' \"\$1\" ${3-} >\"\$2\""; }
+echoes '"stiffness_2", "note", "log_likelihood"' '$2, "x", l'
+check "points that are repeated" $own --command ./program.sh --output echo_all.csv
+echoes '"log_likelihood"' 'l'
+check "the same without" $own --command ./program.sh --output echo_none.csv
+check "give the same samples" cmp -s echo_all.csv echo_none.csv
+for digits in .3f .4g .5e .9g .0f; do
+  echoes '"log_likelihood", "stiffness_1", "relative_noise"' "l, sprintf(\"%$digits\", \$1), sprintf(\"%$digits\", \$3)"
+  check "points in the form %$digits" $own --command ./program.sh --output echo_digits.csv
+  check "give the same samples (%$digits)" cmp -s echo_digits.csv echo_none.csv
+done
+echoes '$0, "log_likelihood"' '$0, l' '| { read -r header; echo "$header"; sort -t, -k2,2g; }'
+fails ' where the point has '
+check "the row of the point is named" grep -q 'wrote stiffness_1 = [0-9.]* where the point has \([0-9.]*\): expected the rows in the order of the points; point [0-9]* of 200 (stiffness_1 = \1,' \
+  <($own --threads 1 --command ./program.sh --output failed.csv 2>&1)
+echoes '"stiffness_2", "log_likelihood"' '(NR == 4 ? "abc" : $2), l'
+fails 'wrote stiffness_2 = abc where the point has'
+echoes '"relative_noise", "log_likelihood"' '(NR == 7 ? 1.0001 * $3 : $3), l'
+fails 'point 6 of 200'
+
+# Another program has the parameters of the file of the prior: any number, any names, any sign.
+script 'awk -F, '"'"'NR == 1 { print "log_likelihood"; next } { print -0.5 * (($1 + 3) ^ 2 / 0.01 + ($2 - 2) ^ 2 / 0.04) }'"'"' "$1" >"$2"; head -n 1 "$1" >header'
+sed -i 's|>header|>"$HEADER"|' program.sh
+printf 'parameter,lower,upper\n"offset, mm",-10,-0.5\nslope,-4,4\n' >two.csv
+HEADER=$work/header $own --command ./program.sh --prior two.csv --output two_samples.csv --netcdf two.nc
+check "the program sees their names" grep -qx '"offset, mm",slope' header
+check "and so does who reads the samples" test "$(head -1 two_samples.csv)" = '"offset, mm",slope,log_likelihood'
+check "two parameters of either sign: -3 +- 0.1 and 2 +- 0.2" awk -F, 'NR > 1 { n++; for (j = 1; j <= 2; j++) { s[j] += $j; q[j] += $j * $j } }
+  END { a = s[1] / n; b = s[2] / n; u = sqrt(q[1] / n - a * a); v = sqrt(q[2] / n - b * b)
+        exit !(a > -3.05 && a < -2.95 && b > 1.9 && b < 2.1 && u > 0.08 && u < 0.12 && v > 0.16 && v < 0.24) }' two_samples.csv
+if command -v ncdump >/dev/null; then
+  check "NetCDF: the parameters of the program" grep -qF 'double slope(chain, draw)' <(ncdump -h two.nc)
+  check "NetCDF: no observations that the program has not named" test -z "$(ncdump -h two.nc | grep -E 'observed_data|constant_data|group: log_likelihood')"
+fi
+printf 'parameter,lower,upper\nx,-1,1\n' >one.csv
+script 'awk '"'"'NR == 1 { print "log_likelihood"; next } { print -50 * $1 ^ 2 }'"'"' "$1" >"$2"'
+check "one parameter" $own --command ./program.sh --prior one.csv --output one_samples.csv
+printf 'parameter,lower,upper\nx,0,1\n' >other.csv
+expect_error 2 "other.csv:2: column 'parameter': value 'x': expected stiffness_1, stiffness_2 or relative_noise" $own --prior other.csv --output failed.csv
+# refuse_prior TEXT ROW: what cannot be the row of a parameter
+refuse_prior() { printf 'parameter,lower,upper\nx,-1,1\n%s\n' "$2" >bad.csv; expect_error 2 "bad.csv:3: column $1" $own --command ./program.sh --prior bad.csv --output failed.csv --netcdf failed.nc; }
+refuse_prior "'parameter': value 'x': expected each parameter once" 'x,0,1'
+refuse_prior "'parameter': value '': expected a printable name other than log_likelihood" ',0,1'
+refuse_prior "'parameter': value 'log_likelihood': expected a printable name other than log_likelihood" 'log_likelihood,0,1'
+for name in a/b chain draw +a; do refuse_prior "'parameter': value '$name': expected a name that NetCDF allows" "$name,0,1"; done
+refuse_prior "'upper': value '-2': expected a number above the lower bound -1" 'y,-1,-2'
+refuse_prior "'lower': value '-1e101': expected a number from -1e100 to 1e100" 'y,-1e101,2'
+refuse_prior "'upper': value '1e-200': expected a number at least 1e-100 above the lower bound 0" 'y,0,1e-200'
+check "a name that only NetCDF refuses" $own --command ./program.sh --prior <(printf 'parameter,lower,upper\na/b,-1,1\n') --output one_samples.csv
+
 # Breaks in the fifth call: what was done is kept, and the mended program goes on to the same result.
 cat >program.sh <<'SH'
 #!/bin/sh
@@ -84,6 +176,44 @@ touch "$MENDED"
 $own --threads 1 --command ./program.sh --output kept.csv
 check "goes on to the same result" cmp -s program.csv kept.csv
 check "the checkpoint is gone" test ! -e kept.csv.checkpoint
+
+# A program that is another than before, or gives other values: refused, and nothing is touched.
+cat >module.sh <<'SH'
+scale=1
+SH
+cat >changing.sh <<'SH'
+#!/bin/sh
+. "$MODULE"
+echo call >>"$COUNTER"
+[ -e "$MENDED" ] || [ "$(wc -l <"$COUNTER")" -lt 20 ] || exit 7
+awk -F, -v s=$scale 'NR == 1 { print "log_likelihood"; next } { print -s * (($1 - 1) ^ 2 + ($2 - 1) ^ 2) / 0.01 }' "$1" >"$2"
+SH
+chmod +x changing.sh
+rm -f "$COUNTER" "$MENDED"
+export MODULE=$work/module.sh
+echo 'seen by the program' >seen.txt
+changing() { $own --threads 1 --command ./changing.sh --observations seen.txt --output changed.csv "$@"; }
+changing 2>error.txt
+check "stages are kept: $(cat error.txt)" test -s changed.csv.checkpoint
+touch "$MENDED"
+cp changing.sh before.sh
+echo '# edited' >>changing.sh
+expect_error 2 'changed.csv.checkpoint: checkpoint was made with model = program with checksum' changing
+cp before.sh changing.sh
+echo 'something else' >seen.txt
+expect_error 2 'observations with checksum' changing
+echo 'seen by the program' >seen.txt
+echo scale=2 >module.sh
+before=$(sha256sum changed.csv.checkpoint)
+changing 2>error.txt
+check "status of a model with another module" test $? = 2
+check "one line says so: $(cat error.txt)" grep -qx 'own_model: error: changed.csv.checkpoint: the model has changed: the log-likelihood of a sample in the checkpoint was -.* and is now -.*: expected the same, or another file' error.txt
+check "the checkpoint is untouched" test "$before" = "$(sha256sum changed.csv.checkpoint)"
+check "no output" test ! -e changed.csv
+echo scale=1 >module.sh
+changing
+check "the model of before goes on" test -s changed.csv
+rm -f "$COUNTER"
 
 # Killed at random moments, the same command ends with the same bytes.
 rm -f "$COUNTER"

@@ -92,8 +92,12 @@ TEST_CASE_METHOD(CsvFixture, "files without header or rows are refused", "[io][c
 
 TEST_CASE_METHOD(CsvFixture, "headers that name columns badly are refused", "[io][csv]") {
   CHECK(refusal("a,b,a\n1,2,3\n") == "x.csv:1: column 3: value 'a': expected each column name once");
-  CHECK(refusal("a,,b\n1,2,3\n") == "x.csv:1: column 2: value '': expected a column name");
-  CHECK(refusal("a,b,\n1,2,\n") == "x.csv:1: column 3: value '': expected a column name");
+  CHECK(
+      refusal("a,,b\n1,2,3\n") ==
+      "x.csv:1: column 2: value '': expected a column name, which only row names in a first column may lack");
+  CHECK(
+      refusal("a,b,\n1,2,\n") ==
+      "x.csv:1: column 3: value '': expected a column name, which only row names in a first column may lack");
   CHECK(refusal("a;b\n1,5;2\n") ==
         "x.csv:1: header 'a;b': expected columns separated by commas, not by semicolons");
   CHECK(refusal("a\tb\n1\t2\n") ==
@@ -108,11 +112,13 @@ TEST_CASE_METHOD(CsvFixture, "rows with too few or too many cells are refused", 
   CHECK(refusal("a,b\n1,2\n3\n") ==
         "x.csv:3: column 'b': missing value: expected 2 cells, as in the header, not 1");
   CHECK(refusal("a,b\n1,2,7\n") ==
-        "x.csv:2: column 3: value '7': expected 2 cells, as in the header, not more");
+        "x.csv:2: column 3: value '7': expected 2 cells, as in the header, not more "
+        "(row names need a column in the header too, and decimals a point)");
   CHECK(refusal("a,b\n1,2,\n") ==
         "x.csv:2: column 3: value '': expected 2 cells, as in the header, not more");
   CHECK(refusal("a,b\n1,5,2\n") ==
-        "x.csv:2: column 3: value '2': expected 2 cells, as in the header, not more");
+        "x.csv:2: column 3: value '2': expected 2 cells, as in the header, not more "
+        "(row names need a column in the header too, and decimals a point)");
 }
 
 TEST_CASE_METHOD(CsvFixture, "cells that are no finite number are refused", "[io][csv]") {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "csv_fixture.hpp"
@@ -89,7 +90,8 @@ TEST_CASE_METHOD(CsvFixture, "spreadsheet files that could mean something else a
       {"decimal commas and commas", "x,y\n1,5,2,5\n",
        "2: column 3: value '2': expected 2 cells, as in the header, not more"},
       {"tabs", "x\ty\n1\t2\n", "1: header 'x\\ty': expected columns separated by commas, not by tabs"},
-      {"trailing commas", "x,y,\n1,2,\n", "1: column 3: value '': expected a column name"},
+      {"trailing commas", "x,y,\n1,2,\n",
+       "1: column 3: value '': expected a column name, which only row names in a first column may lack"},
       {"trailing commas in the rows", "x,y\n1,2,\n",
        "2: column 3: value '': expected 2 cells, as in the header, not more"},
       {"a quoted cell over two lines", "x,y\n1,\"two\nlines\"\n",
@@ -104,6 +106,125 @@ TEST_CASE_METHOD(CsvFixture, "spreadsheet files that could mean something else a
   for (const auto& [what, content, expected] : files) {
     CAPTURE(what);
     CHECK(refusal(content) == "x.csv:" + expected);
+  }
+}
+
+TEST_CASE_METHOD(CsvFixture, "row names below an unnamed first column are left out",
+                 "[io][csv][spreadsheet]") {
+  const std::vector<Accepted> files = {
+      {"pandas, to_csv", ",x,y\n0,1.5,a\n1,-2,b\n"},
+      {"pandas, a part of the rows in another order", ",x,y\n17,1.5,a\n4,-2,b\n"},
+      {"pandas, after concat", ",x,y\n0,1.5,a\n0,-2,b\n"},
+      {"R, write.csv", "\"\",\"x\",\"y\"\n\"1\",1.5,\"a\"\n\"2\",-2,\"b\"\n"},
+      {"R, row names that are words", "\"\",\"x\"\n\"rig 2\",1.5\n\"rig 3\",-2\n"},
+      {"dates", ",x\n2023-05-03,1.5\n2023-05-04,-2\n"},
+      {"an empty first column", ",x\n,1.5\n,-2\n"},
+      {"byte order mark and CRLF", "\xEF\xBB\xBF,x\r\n0,1.5\r\n1,-2\r\n"},
+  };
+  for (const auto& [what, content] : files) {
+    CAPTURE(what);
+    const io::CsvTable t = table(content);
+    CHECK(t.numbers("x") == std::vector<double>{1.5, -2.0});
+    CHECK(t.column_names().front() == "x");
+    CHECK_FALSE(t.has(""));
+  }
+  CHECK(message([&] { table(",x,y\n0,1.5,a\n1,zero,b\n").numbers("x"); }) ==
+        "x.csv:3: column 'x': value 'zero': expected a finite number");
+  CHECK(message([&] { table(",lower,upper\nfriction,0,1\n").text("parameter"); }) ==
+        "x.csv:1: header ',lower,upper': expected a column 'parameter' "
+        "(the first one, without a name, is taken for row names)");
+}
+
+TEST_CASE_METHOD(CsvFixture, "columns without a name that are no row names are refused",
+                 "[io][csv][spreadsheet]") {
+  const std::vector<Refused> files = {
+      {"measurements", ",x\n1,1.5\n0.643,-2\n",
+       "3: column 1: value '0.643': expected a row number or a row name, since the column has no name in the "
+       "header"},
+      {"two of them", ",,x\n0,0,1.5\n",
+       "1: column 2: value '': expected a column name, which only row names in a first column may lack"},
+      {"one further on", "x,\"\",y\n1.5,0,a\n",
+       "1: column 2: value '': expected a column name, which only row names in a first column may lack"},
+      {"nothing else", "\"\"\n1\n", "1: column 1: value '': expected a column name"},
+      {"R, write.table: no place for them in the header", "\"x\",\"y\"\n\"1\",1.5,\"a\"\n\"2\",-2,\"b\"\n",
+       "2: column 3: value 'a': expected 2 cells, as in the header, not more "
+       "(row names need a column in the header too, and decimals a point)"},
+      {"a row that is too short", ",x,y\n0,1.5\n",
+       "2: column 'y': missing value: expected 3 cells, as in the header, not 2"},
+      {"a row that is too long", ",x\n0,1.5\n1,2,3\n",
+       "3: column 3: value '3': expected 2 cells, as in the header, not more"},
+  };
+  for (const auto& [what, content, expected] : files) {
+    CAPTURE(what);
+    CHECK(refusal(content) == "x.csv:" + expected);
+  }
+}
+
+TEST_CASE_METHOD(CsvFixture, "a header behind the sign of a comment is the header",
+                 "[io][csv][spreadsheet]") {
+  const std::vector<Accepted> files = {
+      {"numpy.savetxt", "# x,y\n1.500000e+00,3\n-2.000000e+00,4\n"},
+      {"byte order mark and CRLF", "\xEF\xBB\xBF# x,y\r\n1.5,a1\r\n-2,b\r\n"},
+      {"blank lines", "\n\n # x,y\n\n1.5,3\n-2,4\n"},
+      {"without a blank", "#x,y\n1.5,a\n-2,b\n"},
+      {"one column", "# x\n1.5\n-2\n"},
+      {"quoted", "# \"x\",\"y,z\"\n\"1.5\",3\n\"-2\",4\n"},
+      {"over row numbers", "#,x\n1,1.5\n2,-2\n"},
+  };
+  for (const auto& [what, content] : files) {
+    CAPTURE(what);
+    CHECK(table(content).numbers("x") == std::vector<double>{1.5, -2.0});
+  }
+  CHECK(message([&] { table("# x,y\n\n1.5,3\ntwo,4\n").numbers("x"); }) ==
+        "x.csv:4: column 'x': value 'two': expected a finite number");
+  CHECK(message([&] { table("# y\n1\n").numbers("x"); }) == "x.csv:1: header 'y': expected a column 'x'");
+}
+
+TEST_CASE_METHOD(CsvFixture, "a hash elsewhere is text, or explained on its line", "[io][csv][spreadsheet]") {
+  CHECK(table("x,y\n#1,a\n2,#b\n").text("x") == std::vector<std::string>{"#1", "2"});
+  CHECK(table("\"#x\",y\n\"# 1\",a\n").text("#x") == std::vector<std::string>{"# 1"});
+  const std::vector<Refused> files = {
+      {"a comment between rows", "x,y\n1.5,a\n# moved, on 4 May, at noon\n-2,b\n",
+       "3: column 'x': value '# moved, on 4 May, at noon': expected 2 cells, as in the header, and no "
+       "comments"},
+      {"a comment below", "x,y\n1.5,a\n# end\n",
+       "3: column 'x': value '# end': expected 2 cells, as in the header, and no comments"},
+      {"a comment above the header", "# tower 4, west\nx,y\n1.5,a\n-2,b\n",
+       "1: column 1: value '# tower 4, west': expected the header, without lines that begin with # above it"},
+      {"a comment below a blank line", "\n##tower 4\nx,y\n1.5,2\n",
+       "2: column 1: value '# tower 4': expected the header, without lines that begin with # above it"},
+      {"a comment above a commented header", "# tower 4, west\n# x,y\n1.5,3\n",
+       "1: column 1: value '# tower 4, west': expected the header, without lines that begin with # above it"},
+      {"comments alone", "#\n# \n",
+       "1: column 1: value '# ': expected the header, without lines that begin with # above it"},
+      {"a NUL byte in a comment", bytes("# a\0b\nx\n1\n", 10),
+       "1: column 1: value '# a\\x00b': expected UTF-8 text without NUL bytes"},
+      {"lines that end in CR", "# rig 2\rx\r1.5\r",
+       "1: column 1: value '# rig 2\\rx\\r1.5': expected lines that end in LF or CRLF"},
+  };
+  for (const auto& [what, content, expected] : files) {
+    CAPTURE(what);
+    CHECK(refusal(content) == "x.csv:" + expected);
+  }
+  const std::filesystem::path path = directory.path() / "out.csv";
+  io::CsvWriter writer(path, {"#x", "y"});
+  writer.row("# 1", "#");
+  writer.commit();
+  CHECK(io::CsvTable::read(path).text("#x") == std::vector<std::string>{"# 1"});
+}
+
+TEST_CASE_METHOD(CsvFixture, "a refusal carries its parts", "[io][csv]") {
+  try {
+    std::ignore = table("x,y\n1,2\n3,four\n").numbers("y");
+    FAIL("accepted");
+  } catch (const io::InputError& error) {
+    const io::InputFault& fault = error.fault();
+    CHECK(fault.path == directory.path() / "x.csv");
+    CHECK(fault.line == 3);
+    CHECK(fault.column == "'y'");
+    CHECK(fault.found == "value 'four'");
+    CHECK(fault.expected == "a finite number");
+    CHECK(error.what() == io::describe(fault));
   }
 }
 
