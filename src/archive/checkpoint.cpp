@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <boost/crc.hpp>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
-#include "archive/text_format.hpp"
+#include "io/csv.hpp"
 #include "io/files.hpp"
 
 namespace archive {
@@ -19,144 +24,95 @@ namespace {
 
 using tmcmc::Index;
 
-constexpr std::string_view magic = "tmcmc checkpoint ";
-constexpr std::string_view version = "1";
-constexpr std::string_view checksum_line = "crc32 = ";
+/// The file: this line, the checksum of the rest, and the rest in cereal's portable binary form.
+constexpr std::string_view first_line = "tmcmc checkpoint 2\n";
+constexpr std::size_t checksum_size = 9;  // eight hexadecimal digits and a line end
+constexpr std::string_view start_again = "(delete it to start again)";
 constexpr std::size_t longest_value = 120;
 
-std::string checksum(std::string_view text) {
+std::string checksum_line(std::string_view text) {
   boost::crc_32_type crc;
   crc.process_bytes(text.data(), text.size());
-  return fmt::format("{:08x}", crc.checksum());
+  return fmt::format("{:08x}\n", crc.checksum());
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view what) {
+  throw io::InputError(fmt::format("{}: {} {}", io::printable_path(path), what, start_again));
+}
+
+/// Sizes and numbers of a matrix or vector.
+template <class Archive, class Matrix>
+void transfer_matrix(Archive& archive, Matrix& matrix) {
+  Index rows = matrix.rows();
+  Index columns = matrix.cols();
+  archive(rows, columns);
+  if constexpr (Archive::is_loading::value) {
+    matrix.resize(rows, columns);
+  }
+  archive(cereal::binary_data(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double)));
 }
 
 /// Every field by name: one that is added to the record does not compile until it is listed here.
-template <class Record, class Function>
-void for_each_field(Record& record, Function function) {
+template <class Archive>
+void transfer_stage(Archive& archive, tmcmc::StageRecord& record) {
   auto& [stage, beta, step, effective_sample_size, coefficient_of_variation, log_evidence_increment,
          acceptance_rate, feasible, distinct_ancestors, evaluations, redraws, move_steps, proposal_scale,
          transition_evaluations] = record;
-  function(stage);
-  function(beta);
-  function(step);
-  function(effective_sample_size);
-  function(coefficient_of_variation);
-  function(log_evidence_increment);
-  function(acceptance_rate);
-  function(feasible);
-  function(distinct_ancestors);
-  function(evaluations);
-  function(redraws);
-  function(move_steps);
-  function(proposal_scale);
-  function(transition_evaluations);
+  archive(stage, beta, step, effective_sample_size, coefficient_of_variation, log_evidence_increment,
+          acceptance_rate, feasible, distinct_ancestors, evaluations, redraws, move_steps, proposal_scale,
+          transition_evaluations);
 }
 
-// ---------------------------------------------------------------- writing
-
-void write_progress(Writer& file, const tmcmc::Progress& progress) {
-  const tmcmc::State& state = progress.state;
-  const tmcmc::BridgeSums& sums = progress.bridge.sums();
-  file.line("stage", state.stage);
-  file.line("beta", state.beta);
-  file.line("log_evidence", state.log_evidence);
-  file.line("evaluations", state.evaluations);
-  file.line("proposal_scale", state.proposal_scale);
-  file.line("chains", state.genealogy.chains);
-  file.line("bridge.log_evidence", sums.log_evidence);
-  file.line("bridge.least_variance", sums.least_variance);
-  file.table("stages", progress.stages.size());
-  for (const tmcmc::StageRecord& record : progress.stages) {
-    for_each_field(record, [&](auto field) { file.cell(field); });
-    file.end_row();
+/// Writes or reads a progress whose bridge has the sums.
+template <class Archive>
+void transfer(Archive& archive, tmcmc::Progress& progress, tmcmc::BridgeSums& sums) {
+  tmcmc::State& state = progress.state;
+  archive(state.stage, state.beta, state.log_evidence, state.evaluations, state.proposal_scale,
+          state.genealogy.chains, state.genealogy.ancestors);
+  transfer_matrix(archive, state.points);
+  transfer_matrix(archive, state.log_likelihood);
+  std::size_t stages = progress.stages.size();
+  archive(stages);
+  progress.stages.resize(stages);
+  for (tmcmc::StageRecord& record : progress.stages) {
+    transfer_stage(archive, record);
   }
-  file.table("points", static_cast<std::size_t>(state.points.rows()));
-  for (Index i = 0; i < state.points.rows(); ++i) {
-    for (const double x : state.points.row(i)) {
-      file.cell(x);
+  archive(sums.log_evidence, sums.least_variance, sums.influence, sums.parents);
+}
+
+void require_same(const Settings& theirs, const std::filesystem::path& path, const Settings& ours) {
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const auto& [name, value] = ours[i];
+    if (i >= theirs.size() || theirs[i].first != name) {
+      fail(path, fmt::format("checkpoint without the setting {}: expected one of this version", name));
     }
-    file.cell(state.log_likelihood[i]);
-    file.end_row();
-  }
-  file.table("ancestors", state.genealogy.ancestors);
-  file.table("influence", sums.influence);
-  file.table("parents", sums.parents);
-}
-
-// ---------------------------------------------------------------- reading
-
-void require_same(Reader& file, const std::filesystem::path& path, const Settings& expected) {
-  for (const auto& [name, ours] : expected) {
-    const auto theirs = file.value(name);
-    if (theirs != ours) {
+    if (theirs[i].second != value) {
       throw io::InputError(fmt::format(
           "{}: checkpoint was made with {} = {}, this run has {}: expected the same, or another file",
-          path.string(), name, io::printable(theirs, longest_value), io::printable(ours, longest_value)));
+          io::printable_path(path), name, io::printable(theirs[i].second, longest_value),
+          io::printable(value, longest_value)));
     }
   }
 }
 
-tmcmc::Progress read_progress(Reader& file, Index dimension) {
-  tmcmc::Progress progress;
-  tmcmc::State& state = progress.state;
-  tmcmc::BridgeSums sums;
-  file.read("stage", state.stage);
-  file.read("beta", state.beta);
-  file.read("log_evidence", state.log_evidence);
-  file.read("evaluations", state.evaluations);
-  file.read("proposal_scale", state.proposal_scale);
-  file.read("chains", state.genealogy.chains);
-  file.read("bridge.log_evidence", sums.log_evidence);
-  file.read("bridge.least_variance", sums.least_variance);
-  for (std::size_t left = file.table("stages"); left > 0; --left) {
-    file.next_line();
-    for_each_field(progress.stages.emplace_back(), [&](auto& field) { file.cell(field); });
-    file.end_row();
-  }
-  std::vector<std::vector<double>> rows;
-  file.table("points", rows);
-  state.points.resize(static_cast<Index>(rows.size()), dimension);
-  state.log_likelihood.resize(static_cast<Index>(rows.size()));
-  for (Index i = 0; i < state.points.rows(); ++i) {
-    const auto& row = rows[static_cast<std::size_t>(i)];
-    if (static_cast<Index>(row.size()) != dimension + 1) {
-      file.fail(fmt::format("a sample of {} numbers: expected {}", row.size(), dimension + 1));
-    }
-    std::copy_n(row.begin(), dimension, state.points.row(i).begin());
-    state.log_likelihood[i] = row.back();
-  }
-  file.table("ancestors", state.genealogy.ancestors);
-  file.table("influence", sums.influence);
-  file.table("parents", sums.parents);
-  file.end();
-  progress.bridge = tmcmc::BridgeEvidence(std::move(sums));
-  return progress;
-}
-
-/// The text before the line of the checksum.
-std::string_view checked(std::string_view text, const std::filesystem::path& path) {
-  const auto fail = [&](std::string_view what) {
-    throw io::InputError(fmt::format("{}: {}", path.string(), what));
-  };
+/// The bytes behind the line of the checksum.
+std::string checked(const std::string& text, const std::filesystem::path& path) {
+  constexpr std::string_view magic = first_line.substr(0, first_line.rfind(' ') + 1);
+  const std::string_view version = first_line.substr(magic.size(), first_line.size() - magic.size() - 1);
   if (!text.starts_with(magic)) {
-    fail(fmt::format("not a checkpoint: expected '{}{}' in its first line", magic, version));
+    throw io::InputError(fmt::format("{}: not a checkpoint: expected '{}{}' in its first line",
+                                     io::printable_path(path), magic, version));
   }
-  const auto found = text.substr(magic.size(), text.find('\n') - magic.size());
-  if (found != version) {
-    fail(fmt::format("checkpoint of format '{}': expected format {} {}", io::printable(found), version,
-                     start_again));
+  if (!text.starts_with(first_line)) {
+    const auto found = text.substr(magic.size(), text.find('\n') - magic.size());
+    fail(path, fmt::format("checkpoint of format '{}': expected format {}", io::printable(found), version));
   }
-  const std::size_t body = text.size() - std::min(text.size(), checksum_line.size() + 9);
-  const auto last = text.substr(body);
-  if (!last.starts_with(checksum_line) || !last.ends_with('\n')) {
-    fail(fmt::format("cut off: expected a checksum in the last line {}", start_again));
+  const std::string sum = text.substr(first_line.size(), checksum_size);
+  std::string body = text.substr(std::min(text.size(), first_line.size() + checksum_size));
+  if (sum != checksum_line(body)) {
+    fail(path, "damaged or cut off: expected another checksum");
   }
-  const auto sum = last.substr(checksum_line.size(), 8);
-  const auto expected = checksum(text.substr(0, body));
-  if (sum != expected) {
-    fail(fmt::format("damaged: checksum {}, expected {} {}", io::printable(sum), expected, start_again));
-  }
-  return text.substr(0, body);
+  return body;
 }
 
 /// Settings do not show all that a model consists of, such as the modules that a program imports: a few samples are
@@ -197,14 +153,18 @@ std::string file_checksum(const std::filesystem::path& path) {
 
 void write_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                       const tmcmc::Progress& progress) {
-  Writer writer(fmt::format("{}{}", magic, version));
-  for (const auto& [name, value] : settings(run)) {
-    writer.line(name, value);
+  std::ostringstream body(std::ios::binary);
+  {
+    cereal::PortableBinaryOutputArchive archive(body);
+    archive(settings(run));
+    tmcmc::Progress copy = progress;  // reading and writing share a function
+    tmcmc::BridgeSums sums = progress.bridge.sums();
+    transfer(archive, copy, sums);
   }
-  write_progress(writer, progress);
   io::OutputFile file(path);
-  file.write(writer.text());
-  file.write(fmt::format("{}{}\n", checksum_line, checksum(writer.text())));
+  file.write(first_line);
+  file.write(checksum_line(body.view()));
+  file.write(body.view());
   file.commit();
 }
 
@@ -216,17 +176,27 @@ std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path
   }
   std::ifstream file(path, std::ios::binary);
   if (!file || !std::filesystem::is_regular_file(path, error)) {
-    throw io::InputError(fmt::format("{}: cannot be read: expected a checkpoint", path.string()));
+    throw io::InputError(fmt::format("{}: cannot be read: expected a checkpoint", io::printable_path(path)));
   }
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const auto body = checked(text, path);
-  Reader reader(path, body.substr(body.find('\n') + 1));
-  require_same(reader, path, expected);
-  tmcmc::Progress progress = read_progress(reader, run.prior.dimension());
+  std::istringstream body(checked(text, path), std::ios::binary);
+  tmcmc::Progress progress;
   try {
+    cereal::PortableBinaryInputArchive archive(body);
+    Settings theirs;
+    archive(theirs);
+    require_same(theirs, path, expected);
+    tmcmc::BridgeSums sums;
+    transfer(archive, progress, sums);
+    if (body.peek() != std::char_traits<char>::eof()) {
+      fail(path, "more than a checkpoint: expected its end");
+    }
+    progress.bridge = tmcmc::BridgeEvidence(std::move(sums));
     tmcmc::require_valid(progress, run.prior, run.options);
+  } catch (const cereal::Exception&) {
+    fail(path, "less than a checkpoint: expected more bytes");
   } catch (const std::invalid_argument& invalid) {
-    reader.fail(invalid.what());
+    fail(path, invalid.what());
   }
   return progress;
 }

@@ -1,20 +1,8 @@
 /// \file
 /// The progress of a run in a file, so that a run that was killed goes on after its last stage and ends with the same bytes.
 ///
-/// Format 1 is text, one thing a line, numbers in digits that read back as the same double ("inf", "-inf" and "nan" too):
-///
-///     tmcmc checkpoint 1
-///     samples = 1000                 what the run depends on: archive::settings(RunDescription)
-///     ...
-///     model = ...
-///     stage = 3                      then beta, log_evidence, evaluations, proposal_scale, chains (tmcmc::State),
-///     ...                            bridge.log_evidence and bridge.least_variance (tmcmc::BridgeSums)
-///     stages: 3                      so many lines follow: the fields of tmcmc::StageRecord in their order
-///     points: 1000                   a line a sample: its parameters, then its log-likelihood
-///     ancestors: 3                   tmcmc::Genealogy::ancestors, a line a population
-///     influence: 4                   tmcmc::BridgeSums::influence and parents, a line a population
-///     parents: 4
-///     crc32 = 9ae0daaf               CRC-32 (that of zlib and PNG) of all bytes before this line, eight hexadecimal digits
+/// The file holds the line `tmcmc checkpoint 2`, a line with the CRC-32 (that of zlib) of all bytes behind it, and in the portable
+/// binary form of the library cereal what the run depends on (archive::settings) and its tmcmc::Progress.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +21,7 @@ void write_checkpoint(const std::filesystem::path& path, const RunDescription& r
 
 /// Reads a checkpoint of this run; nothing if there is no such file, or a device such as /dev/null.
 /// \throws io::InputError, one line that names the file and what is wrong with it: it cannot be read, is no checkpoint or one
-///         of another format, is cut off or damaged, was made by a run of other settings (naming the first that differs and
+///         of another format, is damaged or cut off, was made by a run of other settings (naming the first that differs and
 ///         both values), or holds what tmcmc::require_valid refuses.
 [[nodiscard]] std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path,
                                                              const RunDescription& run);

@@ -73,17 +73,15 @@ struct Written {
   std::string text;
 };
 
-/// The same text with a line replaced, and a checksum that fits.
-std::string forged(std::string text, const std::string& line, const std::string& by) {
-  text.erase(text.rfind("crc32"));
-  const auto at = text.find(line);
-  REQUIRE(at != std::string::npos);
-  text.replace(at, line.size(), by);
+constexpr std::size_t body_begins = sizeof "tmcmc checkpoint 2\n12345678";
+
+/// A file with this body and a checksum that fits.
+std::string forged(const std::string& body) {
   boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
+  crc.process_bytes(body.data(), body.size());
   char sum[9];
   std::snprintf(sum, sizeof sum, "%08x", static_cast<unsigned>(crc.checksum()));
-  return text + "crc32 = " + sum + "\n";
+  return std::string("tmcmc checkpoint 2\n") + sum + "\n" + body;
 }
 
 }  // namespace
@@ -220,7 +218,7 @@ TEST_CASE("a checkpoint cut off at any byte is refused", "[archive][fault]") {
     CAPTURE(size);
     CHECK(refusal(written.path, written.run) != "accepted");
   }
-  CHECK_THAT(refusal(written.path, written.run), StartsWith("cut off: expected a checksum"));
+  CHECK_THAT(refusal(written.path, written.run), StartsWith("damaged or cut off: expected another checksum"));
   put(written.path, written.text);
   CHECK(refusal(written.path, written.run) == "accepted");
 }
@@ -238,20 +236,21 @@ TEST_CASE("a checkpoint with any bit flipped, or with more at its end, is refuse
     put(written.path, written.text + more);
     CHECK(refusal(written.path, written.run) != "accepted");
   }
-  std::string spoiled = written.text;
-  spoiled[spoiled.find("points") + 20] ^= 1;
-  put(written.path, spoiled);
-  CHECK_THAT(refusal(written.path, written.run), StartsWith("damaged: checksum "));
+  put(written.path, written.text + "x");
+  CHECK(refusal(written.path, written.run) ==
+        "damaged or cut off: expected another checksum (delete it to start again)");
 }
 
 TEST_CASE("another format and other files are told apart", "[archive][fault]") {
   const Written written;
   put(written.path, "x,y\n1,2\n");
   CHECK(refusal(written.path, written.run) ==
-        "not a checkpoint: expected 'tmcmc checkpoint 1' in its first line");
-  put(written.path, forged(written.text, "tmcmc checkpoint 1\n", "tmcmc checkpoint 2\n"));
-  CHECK(refusal(written.path, written.run) ==
-        "checkpoint of format '2': expected format 1 (delete it to start again)");
+        "not a checkpoint: expected 'tmcmc checkpoint 2' in its first line");
+  for (const std::string version : {"1", "3", "22", ""}) {
+    put(written.path, "tmcmc checkpoint " + version + written.text.substr(written.text.find('\n')));
+    CHECK(refusal(written.path, written.run) ==
+          "checkpoint of format '" + version + "': expected format 2 (delete it to start again)");
+  }
   CHECK_THAT(refusal(written.directory.path(), written.run), StartsWith("cannot be read"));
 }
 
@@ -328,21 +327,39 @@ TEST_CASE("a checkpoint of other settings is refused with both values", "[archiv
 
 TEST_CASE("a file whose checksum fits is still read with care", "[archive][fault]") {
   const Written written;
-  const std::vector<std::pair<std::string, std::string>> lines = {
-      {"stage = 2\n", "stage = 3\n"},           {"stage = 2\n", "stage = two\n"},
-      {"stage = 2\n", "stage = 2 2\n"},         {"stage = 2\n", ""},
-      {"points: 12\n", "points: 11\n"},         {"points: 12\n", "points: 13\n"},
-      {"points: 12\n", "points: -1\n"},         {"points: 12\n", "points: 12\n\n"},
-      {"points: 12\n", "points: 12\n1 2 3\n"},  {"influence: 3\n", "influence: 99999999999999\n"},
-      {"ancestors: 2\n", "ancestors: 2\n 1\n"}, {"ancestors: 2\n", "ancestors: 3\n12\n"},
-      {"parents: 3\n\n", "parents: 3\n0\n"},    {"chains = 12\n", "chains = 0\n"}};
-  for (const auto& [line, by] : lines) {
-    CAPTURE(line, by);
-    put(written.path, forged(written.text, line, by));
-    CHECK(refusal(written.path, written.run) != "accepted");
-  }
-  put(written.path, forged(written.text, "stage = 2\n", "stage = 2\n"));
+  const std::string body = written.text.substr(body_begins);
+  put(written.path, forged(body));
   CHECK(refusal(written.path, written.run) == "accepted");
+  for (std::size_t size = 0; size < body.size(); ++size) {
+    put(written.path, forged(body.substr(0, size)));
+    CAPTURE(size);
+    CHECK(refusal(written.path, written.run) ==
+          "less than a checkpoint: expected more bytes (delete it to start again)");
+  }
+  put(written.path, forged(body + "x"));
+  CHECK(refusal(written.path, written.run) ==
+        "more than a checkpoint: expected its end (delete it to start again)");
+
+  const Progress valid = run_whole(small()).progress.back();
+  const std::vector<std::pair<std::string, std::function<void(Progress&)>>> changes = {
+      {"stage", [](Progress& p) { p.state.stage = 3; }},
+      {"beta", [](Progress& p) { p.state.beta = 1.5; }},
+      {"chains", [](Progress& p) { p.state.genealogy.chains = 0; }},
+      {"a log-likelihood too few", [](Progress& p) { p.state.log_likelihood.conservativeResize(11); }},
+      {"a parameter too many", [](Progress& p) { p.state.points.conservativeResize(12, 4); }},
+      {"a point outside the prior", [](Progress& p) { p.state.points(3, 1) = 6.0; }},
+      {"a log-likelihood of NaN",
+       [](Progress& p) { p.state.log_likelihood[5] = std::numeric_limits<double>::quiet_NaN(); }},
+      {"an ancestor that is none", [](Progress& p) { p.state.genealogy.ancestors[0][0] = 12; }},
+      {"a stage too few", [](Progress& p) { p.stages.pop_back(); }}};
+  for (const auto& [what, change] : changes) {
+    CAPTURE(what);
+    Progress progress = valid;
+    change(progress);
+    write_checkpoint(written.path, written.run, progress);
+    CHECK_THAT(refusal(written.path, written.run),
+               Contains("expected") && Contains("(delete it to start again)"));
+  }
 }
 
 TEST_CASE("a model that has changed since the checkpoint is refused, and nothing is touched",
