@@ -18,8 +18,9 @@ struct StreamKey {
   std::uint32_t run = 0;    ///< number of the run within the study
 };
 
-/// What a draw is for; keeps the draws of one stage apart. `statistics`: of runs that are done.
-enum class Purpose : std::uint32_t { prior, resampling, move, data, statistics };
+/// What a draw is for; keeps the draws of one stage apart. `statistics`: of runs that are done; `reference`: of a
+/// density that was fitted to a population.
+enum class Purpose : std::uint32_t { prior, resampling, move, data, statistics, reference };
 
 /// Place of a block of four random words within a run.
 struct DrawId {

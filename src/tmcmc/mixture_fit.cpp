@@ -1,0 +1,331 @@
+#include "tmcmc/mixture_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "portable_math/multiversion.hpp"
+#include "portable_math/sums.hpp"
+#include "tmcmc/proposal.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+constexpr Index block_rows = detail::mixture_rows;
+
+PORTABLE_MATH_MULTIVERSION
+double sum(const double* x, Index n) {
+  return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i]; });
+}
+
+PORTABLE_MATH_MULTIVERSION
+double product_sum(const double* x, const double* y, Index n) {
+  return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i] * y[i]; });
+}
+
+/// taken = weight * share; pull = taken * (nu + d) / (nu + distance).
+PORTABLE_MATH_MULTIVERSION
+void pulls(Index rows, double nu, double d, const double* weights, const double* shares,
+           const double* distances, double* taken, double* pull) {
+  for (Index i = 0; i < rows; ++i) {
+    taken[i] = weights[i] * shares[i];
+    pull[i] = taken[i] * ((nu + d) / (nu + distances[i]));
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void deviations(Index rows, double centre, const double* z, const double* pull, double* deviation,
+                double* pulled) {
+  for (Index i = 0; i < rows; ++i) {
+    deviation[i] = z[i] - centre;
+    pulled[i] = pull[i] * deviation[i];
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void lower_distances(Index n, Index d, const double* points, const double* centre, double* work,
+                     double* least) {
+  for (Index i = 0; i < n; ++i) {
+    work[i] = 0.0;
+  }
+  for (Index j = 0; j < d; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      const double distance = points[i + j * n] - centre[j];
+      work[i] += distance * distance;
+    }
+  }
+  for (Index i = 0; i < n; ++i) {
+    least[i] = work[i] < least[i] ? work[i] : least[i];
+  }
+}
+
+/// Sums of one component over the points, with deviations from its mean before the step.
+struct Moments {
+  double taken = 0.0;      // sum of weight times share
+  double pull = 0.0;       // the same times (nu + d) / (nu + distance)
+  Eigen::VectorXd first;   // of the pulls times the deviations
+  Eigen::MatrixXd second;  // lower triangle of the pulls times the products of two deviations
+};
+
+/// Work space and data of one fit.
+class Fit {
+ public:
+  Fit(const WeightedPoints& data, const MixtureFitOptions& options)
+      : data_(data), options_(options), d_(data.points.cols()), n_(data.points.rows()) {
+    total_ = sum(data.weights.data(), n_);
+    if (!(total_ > 0.0) || !std::isfinite(total_)) {
+      throw SamplingError("no point has a positive weight to fit a reference density to");
+    }
+    mean_ = weighted_mean(data.points, as_span(data.weights), total_);
+    covariance_ = proposal_covariance(data.points, as_span(data.weights), total_, 1.0, Centre::weighted_mean);
+    for (Index j = 0; j < d_; ++j) {
+      // A coordinate without variance gets a little, as does each beyond its rounding.
+      covariance_(j, j) += 1e-6 * covariance_(j, j) + 1e-12;
+    }
+  }
+
+  [[nodiscard]] StudentMixture run(Index components, const StreamKey& key, std::uint32_t stage) {
+    return improve(start(components, key, stage));
+  }
+
+  [[nodiscard]] StudentMixture improve(StudentMixture mixture) {
+    double before = -std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+      const double mean_log_density = expect(mixture);
+      maximise(mixture);
+      if (iteration > 2 && mean_log_density - before < options_.tolerance) {
+        break;
+      }
+      before = mean_log_density;
+    }
+    return mixture;
+  }
+
+ private:
+  /// Weighted k-means++: centres are points, each drawn in proportion to weight times squared distance from those before.
+  [[nodiscard]] StudentMixture start(Index components, const StreamKey& key, std::uint32_t stage) {
+    StudentMixture mixture;
+    mixture.degrees_of_freedom = options_.degrees_of_freedom;
+    const Eigen::MatrixXd factor = cholesky_factor(covariance_);
+    if (components == 1) {
+      mixture.weights = Eigen::VectorXd::Ones(1);
+      mixture.means = mean_;
+      mixture.factors = {factor};
+      return mixture;
+    }
+    Population white = data_.points;
+    for (Index j = 0; j < d_; ++j) {
+      for (Index i = 0; i < n_; ++i) {
+        double value = data_.points(i, j) - mean_[j];
+        for (Index l = 0; l < j; ++l) {
+          value -= factor(j, l) * white(i, l);
+        }
+        white(i, j) = value / factor(j, j);
+      }
+    }
+    Eigen::VectorXd least = Eigen::VectorXd::Constant(n_, 1e300);
+    Eigen::VectorXd work(n_);
+    Eigen::VectorXd chance = data_.weights;
+    std::vector<Index> centres;
+    for (Index k = 0; k < components; ++k) {
+      const Words words = random_words(
+          key,
+          {.purpose = Purpose::reference, .stage = stage, .row = static_cast<std::uint64_t>(k), .draw = 1});
+      const double level = uniform_open(words[0]) * sum(chance.data(), n_);
+      Index chosen = 0;
+      double cumulative = 0.0;
+      for (Index i = 0; i < n_; ++i) {
+        cumulative += chance[i];
+        chosen = chance[i] > 0.0 ? i : chosen;
+        if (cumulative >= level) {
+          break;
+        }
+      }
+      centres.push_back(chosen);
+      const Eigen::VectorXd centre = white.row(chosen).transpose();
+      lower_distances(n_, d_, white.data(), centre.data(), work.data(), least.data());
+      for (Index i = 0; i < n_; ++i) {
+        chance[i] = data_.weights[i] * least[i];
+      }
+    }
+    // Equal components about the centres, of the covariance that they would have if they shared the points evenly.
+    const double width =
+        portable_math::exp(-portable_math::log(static_cast<double>(components)) / static_cast<double>(d_));
+    mixture.weights = Eigen::VectorXd::Constant(components, 1.0 / static_cast<double>(components));
+    mixture.means.resize(d_, components);
+    for (Index k = 0; k < components; ++k) {
+      mixture.means.col(k) = data_.points.row(centres[static_cast<std::size_t>(k)]).transpose();
+      mixture.factors.push_back(width * factor);
+    }
+    return mixture;
+  }
+
+  /// E-step and the sums of the M-step; returns the mean log-density.
+  double expect(const StudentMixture& mixture) {
+    const Index components = mixture.size();
+    const auto parts = detail::components_of(mixture);
+    const auto entries = static_cast<std::size_t>(components * block_rows);
+    const auto block = static_cast<std::size_t>(d_ * block_rows);
+    white_.resize(block);
+    pulled_.resize(block);
+    distances_.resize(entries);
+    densities_.resize(entries);
+    shares_.resize(entries);
+    moments_.assign(static_cast<std::size_t>(components),
+                    {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
+    double log_density_sum = 0.0;
+    double log_densities[block_rows];
+    double taken[block_rows];
+    double pull[block_rows];
+    for (Index begin = 0; begin < n_; begin += block_rows) {
+      const Index rows = std::min(block_rows, n_ - begin);
+      const double* weights = data_.weights.data() + begin;
+      detail::component_densities(parts, d_, mixture.degrees_of_freedom, data_.points.data() + begin, n_,
+                                  rows, white_.data(), distances_.data(), densities_.data());
+      detail::log_sum(components, rows, densities_.data(), log_densities, shares_.data());
+      log_density_sum += product_sum(weights, log_densities, rows);
+      for (Index k = 0; k < components; ++k) {
+        Moments& moments = moments_[static_cast<std::size_t>(k)];
+        pulls(rows, options_.degrees_of_freedom, static_cast<double>(d_), weights,
+              shares_.data() + k * block_rows, distances_.data() + k * block_rows, taken, pull);
+        moments.taken += sum(taken, rows);
+        moments.pull += sum(pull, rows);
+        for (Index j = 0; j < d_; ++j) {
+          double* pulled = pulled_.data() + j * block_rows;
+          deviations(rows, mixture.means(j, k), data_.points.data() + begin + j * n_, pull,
+                     white_.data() + j * block_rows, pulled);
+          moments.first[j] += sum(pulled, rows);
+          for (Index l = 0; l <= j; ++l) {
+            moments.second(j, l) += product_sum(pulled, white_.data() + l * block_rows, rows);
+          }
+        }
+      }
+    }
+    return log_density_sum / total_;
+  }
+
+  void maximise(StudentMixture& mixture) const {
+    const double fewest = static_cast<double>(d_ + 2);
+    StudentMixture next;
+    next.degrees_of_freedom = mixture.degrees_of_freedom;
+    std::vector<Index> kept;
+    Index largest = 0;
+    for (Index k = 0; k < mixture.size(); ++k) {
+      const double taken = moments_[static_cast<std::size_t>(k)].taken;
+      largest = taken > moments_[static_cast<std::size_t>(largest)].taken ? k : largest;
+      if (taken > fewest) {
+        kept.push_back(k);
+      }
+    }
+    if (kept.empty()) {
+      kept.push_back(largest);
+    }
+    const auto count = static_cast<Index>(kept.size());
+    const double narrowing =
+        portable_math::exp(-2.0 * portable_math::log(static_cast<double>(count)) / static_cast<double>(d_));
+    double all = 0.0;
+    for (const Index k : kept) {
+      all += moments_[static_cast<std::size_t>(k)].taken;
+    }
+    next.weights.resize(count);
+    next.means.resize(d_, count);
+    for (Index m = 0; m < count; ++m) {
+      const Index k = kept[static_cast<std::size_t>(m)];
+      const Moments& moments = moments_[static_cast<std::size_t>(k)];
+      next.weights[m] = moments.taken / all;
+      const double shrinkage =
+          count == 1 ? 0.0 : static_cast<double>(d_ + 1) / (static_cast<double>(d_ + 1) + moments.taken);
+      Eigen::MatrixXd scale(d_, d_);
+      for (Index j = 0; j < d_; ++j) {
+        const double shift_j = moments.first[j] / moments.pull;
+        next.means(j, m) = mixture.means(j, k) + shift_j;
+        for (Index l = 0; l <= j; ++l) {
+          const double shift_l = moments.first[l] / moments.pull;
+          const double own = moments.second(j, l) / moments.pull - shift_j * shift_l;
+          scale(j, l) = (1.0 - shrinkage) * own + shrinkage * narrowing * covariance_(j, l);
+          scale(l, j) = scale(j, l);
+        }
+        scale(j, j) += 1e-6 * covariance_(j, j);
+      }
+      next.factors.push_back(cholesky_factor(scale));
+    }
+    mixture = std::move(next);
+  }
+
+  const WeightedPoints& data_;
+  const MixtureFitOptions& options_;
+  Index d_;
+  Index n_;
+  double total_ = 0.0;
+  Eigen::VectorXd mean_;
+  Eigen::MatrixXd covariance_;
+  std::vector<Moments> moments_;
+  std::vector<double> white_, pulled_, distances_, densities_, shares_;
+};
+
+/// The points of even or odd groups.
+WeightedPoints half(const WeightedPoints& data, Index parity) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < data.points.rows(); ++i) {
+    if (data.groups[static_cast<std::size_t>(i)] % 2 == parity) {
+      rows.push_back(i);
+    }
+  }
+  const auto n = static_cast<Index>(rows.size());
+  WeightedPoints part{Population(n, data.points.cols()), Eigen::VectorXd(n), {}};
+  for (Index i = 0; i < n; ++i) {
+    part.points.row(i) = data.points.row(rows[static_cast<std::size_t>(i)]);
+    part.weights[i] = data.weights[rows[static_cast<std::size_t>(i)]];
+  }
+  return part;
+}
+
+double total_log_density(const StudentMixture& mixture, const WeightedPoints& data) {
+  const Eigen::VectorXd densities = log_density(mixture, data.points);
+  return product_sum(densities.data(), data.weights.data(), data.weights.size());
+}
+
+}  // namespace
+
+StudentMixture fit_mixture(const WeightedPoints& data, Index components, const MixtureFitOptions& options,
+                           const StreamKey& key, std::uint32_t stage) {
+  return Fit(data, options).run(components, key, stage);
+}
+
+StudentMixture improve_mixture(const WeightedPoints& data, StudentMixture start,
+                               const MixtureFitOptions& options) {
+  return Fit(data, options).improve(std::move(start));
+}
+
+StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
+                           std::uint32_t stage) {
+  const WeightedPoints even = half(data, 0);
+  const WeightedPoints odd = half(data, 1);
+  const double weight_even = sum(even.weights.data(), even.weights.size());
+  const double weight_odd = sum(odd.weights.data(), odd.weights.size());
+  Index best = 1;
+  if (weight_even > 0.0 && weight_odd > 0.0) {
+    Fit fit_even(even, options);
+    Fit fit_odd(odd, options);
+    double best_score = -std::numeric_limits<double>::infinity();
+    for (Index k = 1; k <= options.most_components; k *= 2) {
+      if (k > 1 && std::min(weight_even, weight_odd) < static_cast<double>(k * data.points.cols())) {
+        break;
+      }
+      const double score = (total_log_density(fit_even.run(k, key, stage), odd) +
+                            total_log_density(fit_odd.run(k, key, stage), even)) /
+                           (weight_even + weight_odd);
+      if (score > best_score + options.gain_of_component) {
+        best_score = score;
+        best = k;
+      } else if (score < best_score - 0.02) {
+        break;
+      }
+    }
+  }
+  return fit_mixture(data, best, options, key, stage);
+}
+
+}  // namespace tmcmc

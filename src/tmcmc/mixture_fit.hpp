@@ -1,0 +1,49 @@
+/// \file
+/// Fit of a mixture of Student t distributions to weighted points.
+#pragma once
+
+#include "tmcmc/student_mixture.hpp"
+
+namespace tmcmc {
+
+/// Points to fit to.
+struct WeightedPoints {
+  Population points;  ///< n x d
+  Eigen::VectorXd
+      weights;  ///< n, not negative; their sum is the number of independent points that they stand for
+  std::vector<Index> groups;  ///< of each point: dependent points (states of one chain) have the same group
+};
+
+/// Limits of a fit.
+struct MixtureFitOptions {
+  int degrees_of_freedom = 8;  ///< nu, even
+  Index most_components = 8;   ///< the numbers 1, 2, 4, ... up to this are tried
+  int most_iterations = 8;     ///< of the EM algorithm
+  double tolerance = 3e-3;     ///< of the mean log-density: a smaller gain ends the iteration
+  double gain_of_component =
+      0.005;  ///< least gain of the held-out mean log-density for which more components are taken
+};
+
+/// Maximum-likelihood fit of `components` components by expectation-maximisation with the parameter expansion of Kent, Tyler
+/// and Vardi (1994; Peel and McLachlan 2000 for mixtures), from a weighted k-means++ start (Arthur and Vassilvitskii 2007) in
+/// coordinates whitened by the covariance C of all points. With W_k the weight of the points that component k takes,
+///
+///     S_k <- (1 - l_k) S_k + l_k C K^(-2/d),   l_k = (d+1) / (d+1 + W_k),
+///
+/// keeps components of few points from collapsing; one that takes less than d+2 points goes. Components can so become fewer.
+/// \param stage  of Purpose::reference
+/// \throws SamplingError if no weight is positive
+[[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, Index components,
+                                         const MixtureFitOptions& options, const StreamKey& key,
+                                         std::uint32_t stage);
+
+/// The same from components that are known about, such as those of a fit to some of the points.
+[[nodiscard]] StudentMixture improve_mixture(const WeightedPoints& data, StudentMixture start,
+                                             const MixtureFitOptions& options);
+
+/// The same with the number of components that has the largest mean log-density on points that it was not fitted to:
+/// the groups of even number are fitted and the odd ones scored, and the other way round.
+[[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options,
+                                         const StreamKey& key, std::uint32_t stage);
+
+}  // namespace tmcmc
