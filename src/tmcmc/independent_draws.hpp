@@ -22,7 +22,7 @@ struct IndependentDraws {
       0.25;                     ///< of the trial draws; below it the fit is improved up to three times more
   double prior_share = 0.02;    ///< of the draws: those from the prior
   double tempered_share = 0.1;  ///< of the draws: those from a fit to the populations at beta nearest to 1/4
-  MixtureFitOptions fit;        ///< of the densities
+  MixtureFitOptions fit = {};   ///< of the densities
   Index steps_per_chain = 15;   ///< of the TMCMC runs, about
   int threads = 1;              ///< over the rows of a batch
   Index batch_rows = 2048;      ///< see Options::batch_rows
@@ -73,7 +73,8 @@ struct MeasuredPosterior {
 ///    weights (up to the eighth, which the decision to go on has seen).
 ///
 /// Since a mode that both runs have lost leaves no trace, the fit to each run alone is compared with the final draws: where
-/// one has missed a part of the posterior (fits_differ), both may have missed another. In many dimensions (20 and more at 31000
+/// one has missed a part of the posterior (fits_differ), both may have missed another. A mode that both have lost and that is
+/// too narrow for the defensive draws stays silent: more runs of other seeds, or knowledge of the problem, must tell. In many dimensions (20 and more at 31000
 /// evaluations) the weights degenerate, with a warning; the evidence of a TMCMC run is then the better one.
 /// \throws errors::InvalidValue for invalid settings; SamplingError as run().
 [[nodiscard]] MeasuredPosterior run_with_independent_draws(const Problem& problem,

@@ -1,0 +1,166 @@
+// Density, draws and fit of mixtures of Student t distributions.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tmcmc/mixture_fit.hpp"
+
+using namespace tmcmc;
+
+namespace {
+
+constexpr double rounding = 1e-13;
+constexpr double standard_errors = 5.0;
+
+StudentMixture two_components() {
+  StudentMixture mixture;
+  mixture.weights = Eigen::Vector2d(0.25, 0.75);
+  mixture.means.resize(2, 2);
+  mixture.means << -3.0, 2.0, 1.0, 0.5;
+  mixture.factors = {(Eigen::Matrix2d() << 0.5, 0.0, 0.3, 0.4).finished(),
+                     (Eigen::Matrix2d() << 1.0, 0.0, -0.6, 0.8).finished()};
+  return mixture;
+}
+
+WeightedPoints equally_weighted_points(Population points) {
+  const Index n = points.rows();
+  WeightedPoints data{std::move(points), Eigen::VectorXd::Ones(n), {}};
+  for (Index i = 0; i < n; ++i) {
+    data.groups.push_back(i);
+  }
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("The density of one component is the closed form of Student's t with two degrees of freedom") {
+  StudentMixture t;
+  t.weights = Eigen::VectorXd::Ones(1);
+  t.means = Eigen::MatrixXd::Constant(1, 1, 0.5);
+  t.factors = {Eigen::MatrixXd::Constant(1, 1, 2.0)};
+  t.degrees_of_freedom = 2;
+  const Population x = Eigen::Vector3d(-40.0, 0.5, 3.0);
+  const Eigen::VectorXd values = log_density(t, x);
+  for (Index i = 0; i < 3; ++i) {
+    const double z = (x(i, 0) - 0.5) / 2.0;
+    const double expected =
+        -std::log(2.0 * std::sqrt(2.0) * std::pow(1.0 + 0.5 * z * z, 1.5)) - std::log(2.0);
+    CHECK(values[i] == Approx(expected).epsilon(rounding));
+  }
+}
+
+TEST_CASE("The density of a mixture integrates to one, in an even and an odd number of dimensions") {
+  const StudentMixture mixture = two_components();
+  constexpr Index side = 600;
+  constexpr double low = -30.0;
+  constexpr double step = 0.1;
+  Population grid(side * side, 2);
+  for (Index i = 0; i < side * side; ++i) {
+    grid(i, 0) = low + step * static_cast<double>(i % side);
+    grid(i, 1) = low + step * static_cast<double>(i / side);
+  }
+  CHECK(log_density(mixture, grid).array().exp().sum() * step * step == Approx(1.0).margin(1e-5));
+
+  StudentMixture line;
+  line.weights = Eigen::Vector2d(0.4, 0.6);
+  line.means = Eigen::RowVector2d(-1.0, 2.0);
+  line.factors = {Eigen::MatrixXd::Constant(1, 1, 0.5), Eigen::MatrixXd::Constant(1, 1, 1.5)};
+  const Population points = Eigen::VectorXd::LinSpaced(8001, -80.0, 80.0);
+  CHECK(log_density(line, points).array().exp().sum() * 0.02 == Approx(1.0).margin(1e-6));
+}
+
+TEST_CASE("Far from all components the log-density is finite") {
+  Population far(1, 2);
+  far << 1e150, -1e150;
+  CHECK(std::isfinite(log_density(two_components(), far)[0]));
+}
+
+TEST_CASE("Draws have the means and the covariances of their components") {
+  const StudentMixture mixture = two_components();
+  constexpr Index n = 40000;
+  const Population draws = sample(mixture, n, {.seed = 3}, 0);
+  const Eigen::RowVectorXd mean = draws.colwise().mean();
+  const Eigen::VectorXd expected = mixture.means * mixture.weights;
+  // Covariance of t: nu / (nu - 2) L L^T; and the spread of the means.
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  for (Index k = 0; k < 2; ++k) {
+    const auto& factor = mixture.factors[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d shift = mixture.means.col(k) - expected;
+    covariance += mixture.weights[k] * (8.0 / 6.0 * factor * factor.transpose() + shift * shift.transpose());
+  }
+  for (Index j = 0; j < 2; ++j) {
+    const double error = std::sqrt(covariance(j, j) / static_cast<double>(n));
+    CHECK(mean[j] == Approx(expected[j]).margin(standard_errors * error));
+  }
+  const Population centred = draws.rowwise() - mean;
+  const Eigen::Matrix2d found = centred.transpose() * centred / static_cast<double>(n);
+  CHECK((found - covariance).cwiseAbs().maxCoeff() < 0.03 * covariance.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("Each component gets its share of the draws, rounded") {
+  const std::vector<double> shares{0.5, 0.0, 0.3, 0.2};
+  for (const double u : {0.001, 0.5, 0.999}) {
+    const auto counts = systematic_counts(shares, 7, u);
+    CHECK(counts[0] + counts[1] + counts[2] + counts[3] == 7);
+    CHECK(counts[1] == 0);
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK(std::fabs(static_cast<double>(counts[k]) - 7.0 * shares[k]) < 1.0);
+    }
+  }
+}
+
+TEST_CASE("Draws and densities do not depend on the threads, and stages are independent") {
+  const StudentMixture mixture = two_components();
+  const Population one = sample(mixture, 9000, {.seed = 4}, 1, 1);
+  CHECK(one == sample(mixture, 9000, {.seed = 4}, 1, 3));
+  CHECK(one != sample(mixture, 9000, {.seed = 4}, 2, 1));
+  CHECK(log_density(mixture, one, 1) == log_density(mixture, one, 3));
+}
+
+TEST_CASE("A fit finds the components that the points were drawn from") {
+  const StudentMixture truth = two_components();
+  const auto data = equally_weighted_points(sample(truth, 4000, {.seed = 5}, 0));
+  const StudentMixture fit = fit_mixture(data, MixtureFitOptions{}, {.seed = 6}, 0);
+  REQUIRE(fit.size() >= 2);
+  const Population fresh = sample(truth, 4000, {.seed = 7}, 0);
+  const double divergence = (log_density(truth, fresh) - log_density(fit, fresh)).mean();
+  CHECK(divergence < 0.02);
+  CHECK(divergence > -1e-3);
+}
+
+TEST_CASE("Points of weight zero have no influence on a fit") {
+  auto data = equally_weighted_points(sample(two_components(), 600, {.seed = 8}, 0));
+  const StudentMixture without = fit_mixture(data, 2, {}, {.seed = 9}, 0);
+  Population outlier(1, 2);
+  outlier << 1e6, 1e6;
+  auto more = equally_weighted_points(outlier);
+  more.weights[0] = 0.0;
+  WeightedPoints all{Population(601, 2), Eigen::VectorXd(601), data.groups};
+  all.points << data.points, more.points;
+  all.weights << data.weights, more.weights;
+  all.groups.push_back(600);
+  const StudentMixture with = fit_mixture(all, 2, {}, {.seed = 9}, 0);
+  CHECK((with.means - without.means).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("Points drawn from one component get one, also where each is repeated in its group") {
+  StudentMixture t;
+  t.weights = Eigen::VectorXd::Ones(1);
+  t.means = Eigen::MatrixXd::Zero(3, 1);
+  t.factors = {Eigen::MatrixXd::Identity(3, 3)};
+  const Population points = sample(t, 400, {.seed = 10}, 0);
+  CHECK(fit_mixture(equally_weighted_points(points), MixtureFitOptions{}, {.seed = 11}, 0).size() == 1);
+  WeightedPoints repeated{Population(1600, 3), Eigen::VectorXd::Ones(1600), {}};
+  for (Index i = 0; i < 1600; ++i) {
+    repeated.points.row(i) = points.row(i / 4);
+    repeated.groups.push_back(i / 4);
+  }
+  CHECK(fit_mixture(repeated, MixtureFitOptions{}, {.seed = 11}, 0).size() == 1);
+}
+
+TEST_CASE("A coordinate without variance does not stop a fit, and no weight at all does") {
+  auto data = equally_weighted_points(sample(two_components(), 200, {.seed = 12}, 0));
+  data.points.col(1).setConstant(0.5);
+  CHECK(std::isfinite(log_density(fit_mixture(data, 2, {}, {.seed = 13}, 0), data.points).sum()));
+  data.weights.setZero();
+  CHECK_THROWS_AS(fit_mixture(data, 2, {}, {.seed = 13}, 0), SamplingError);
+}
