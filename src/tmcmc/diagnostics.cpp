@@ -1,6 +1,9 @@
 #include "tmcmc/diagnostics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -60,6 +63,47 @@ std::string of_stage(const char* what, const StageRecord& stage) {
   return what + (" of stage " + std::to_string(stage.stage));
 }
 
+/// The standard normal deviate that is exceeded as rarely as the t value.
+double normal_score(double t, double degrees_of_freedom) {
+  constexpr double largest = 30.0;  // tail probabilities stay far above the smallest double
+  const boost::math::students_t_distribution<double> student(degrees_of_freedom);
+  const boost::math::normal_distribution<double> normal;
+  const double size = std::min(std::fabs(t), largest);
+  return std::copysign(boost::math::quantile(complement(normal, boost::math::cdf(complement(student, size)))),
+                       t);
+}
+
+/// Drift of the log-likelihood along the chains. Both bounds together are exceeded by chance in less than 1 % of runs.
+void check_equilibrium(const Result& result, const Options& options, Warnings& warnings) {
+  constexpr double most_in_a_stage = 4.5;
+  constexpr double most_in_all = 3.0;
+  if (options.move != MoveKind::waste_free || options.chains < 3 || result.stages.empty()) {
+    return;
+  }
+  const StageRecord* largest = nullptr;
+  double largest_score = 0.0;
+  double sum = 0.0;
+  for (const StageRecord& stage : result.stages) {
+    const double score = normal_score(stage.equilibrium_t, static_cast<double>(options.chains - 1));
+    sum += score;
+    if (largest == nullptr || score > largest_score) {
+      largest = &stage;
+      largest_score = score;
+    }
+  }
+  const char* advice = "take longer chains (a larger budget, fewer chains) or smaller steps of beta";
+  const double pooled = sum / std::sqrt(static_cast<double>(result.stages.size()));
+  if (pooled > most_in_all) {
+    warnings.above(pooled, most_in_all, WarningKind::not_in_equilibrium,
+                   "the rise of the log-likelihood along the chains of all stages, in standard errors,",
+                   advice);
+  } else {
+    warnings.above(largest_score, most_in_a_stage, WarningKind::not_in_equilibrium,
+                   of_stage("the rise of the log-likelihood along the chains, in standard errors,", *largest),
+                   advice);
+  }
+}
+
 }  // namespace
 
 const char* describe(StopReason stop) {
@@ -92,6 +136,8 @@ const char* describe(WarningKind kind) {
       return "uncertain evidence";
     case WarningKind::few_for_covariance:
       return "few samples for the covariance";
+    case WarningKind::not_in_equilibrium:
+      return "not in equilibrium";
   }
   return "";
 }
@@ -134,6 +180,7 @@ Diagnostics diagnose(const Result& result, const Options& options) {
     warnings.below(least.effective_sample_size / (0.5 * d * (d + 1.0)), 10.0, WarningKind::few_for_covariance,
                    of_stage("the effective sample size per entry of the proposal covariance", least),
                    "take more samples");
+    check_equilibrium(result, options, warnings);
   }
   for (Index j = 0; j < diagnostics.effective_sample_size.size(); ++j) {
     warnings.below(diagnostics.effective_sample_size[j], 50.0, WarningKind::low_effective_size,

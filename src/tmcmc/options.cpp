@@ -63,9 +63,10 @@ void Options::validate() const {
   require(batch_rows >= 0, "batch_rows", batch_rows, "a number of rows, or 0 for no limit");
 }
 
-Options recommended_options(Index evaluations) {
-  constexpr Index chains = 10;
-  require(evaluations >= 500, "evaluation_budget", evaluations, "at least 500 for the recommended options");
+Options recommended_options(Index evaluations, Index chains) {
+  require(chains >= 1, "chains", chains, "at least 1");
+  require(evaluations >= 500 && evaluations / 26 >= chains, "evaluation_budget", evaluations,
+          "at least 500 and 26 a chain for the recommended options");
   Options options;
   options.samples = evaluations / (13 * chains) * chains;
   options.criterion = effective_sample_size_rule(0.5);

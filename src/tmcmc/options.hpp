@@ -72,8 +72,10 @@ struct Options {
   double infeasible_level = -std::numeric_limits<double>::infinity();
   Index max_stages = 1000;      ///< a run that needs more ends with StopReason::stage_limit
   double minimum_step = 1e-15;  ///< a smaller step of beta that does not reach 1 ends the run
-  /// Most log-likelihoods of a run; 0: no limit. The chains of the last stage go on until it is used up, and a run that
-  /// would need more before ends with StopReason::budget. Not for growing chains.
+  /// Most log-likelihoods of a run; 0: no limit. The chains of the last stage go on until it is used up. Before it,
+  /// waste-free shortens its chains where more stages are expected than `samples` of them would fit, so that `samples`
+  /// is the size of the first population and an upper bound for the others. A run whose budget does not hold one step
+  /// of each chain ends with StopReason::budget. Not for growing chains.
   Index evaluation_budget = 0;
   /// Bridge estimate of the log-evidence with its error, effective sample sizes and warnings (Result::evidence and
   /// Result::diagnostics).
@@ -91,9 +93,11 @@ struct Options {
 /// of unbounded coordinates. Found by experiments/cost_accuracy on the friction benchmark and checked by
 /// experiments/calibration and benchmark_problems. Posteriors of several separate modes want more chains (Options::chains):
 /// each mode keeps only the mass of the chains that started in it.
-/// \param evaluations  budget of log-likelihoods, at least 500; a 13th of it is N, and the last stage gets what is left. A problem of more than 12
-///                     stages ends with StopReason::budget: take a multiple of Options::chains that is smaller for N
+/// \param evaluations  budget of log-likelihoods, at least 500 and 26 a chain. A 13th of it is the first population, no later one
+///                     is larger but the last, which gets what is left; more stages get smaller populations
+///                     (Options::evaluation_budget)
+/// \param chains       Options::chains
 /// \throws std::invalid_argument for a smaller budget.
-[[nodiscard]] Options recommended_options(Index evaluations = 31000);
+[[nodiscard]] Options recommended_options(Index evaluations = 31000, Index chains = 10);
 
 }  // namespace tmcmc

@@ -34,7 +34,8 @@ void require_points(const State& state, const BoxPrior& prior, const Options& op
   require(state.points.cols() == prior.dimension(), "state.points",
           "one column for each of the " + std::to_string(prior.dimension()) + " parameters, not " +
               std::to_string(state.points.cols()));
-  require(n >= 1 && (state.beta == 1.0 || n == options.samples), "state.points",
+  const bool varies = state.beta == 1.0 || (options.evaluation_budget > 0 && state.beta > 0.0);
+  require(n >= 1 && (varies || n == options.samples), "state.points",
           std::to_string(options.samples) + " rows (options.samples), not " + std::to_string(n));
   require_size(static_cast<std::size_t>(state.log_likelihood.size()), static_cast<std::size_t>(n),
                "state.log_likelihood");

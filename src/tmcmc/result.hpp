@@ -53,6 +53,10 @@ struct StageRecord {
   Index move_steps = 0;          ///< Metropolis steps of each chain; of the longest one with growing chains
   double proposal_scale =
       0.0;  ///< at the end of the stage; before a division by the square root of a subset's size
+  /// Drift of the log-likelihood along the chains of the stage, as a t value with chains - 1 degrees of freedom: the mean
+  /// over the chains of (mean of the last third - mean of the first third), over its standard error. 0 for fewer than 3
+  /// chains and without drift; waste-free alone.
+  double equilibrium_t = 0.0;
   int transition_evaluations = 0;  ///< evaluations of all weights to find the step
 };
 
@@ -81,7 +85,10 @@ enum class WarningKind {
   /// fewer than 10 effective samples to each of the d (d + 1) / 2 entries of the proposal covariance: proposals that have
   /// been fitted to so few bias the log-evidence upwards, by 1 in 20 and by 8 in 50 dimensions with 3 samples an entry,
   /// and its standard error does not see it
-  few_for_covariance
+  few_for_covariance,
+  /// the log-likelihood rises along the chains of one stage or of all, more than chance explains: beta has crossed a
+  /// transition faster than the chains reach equilibrium, and log-evidence and samples are those of no stationary chain
+  not_in_equilibrium
 };
 
 /// One finding.

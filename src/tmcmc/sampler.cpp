@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "portable_math/elementary.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/parallel.hpp"
 #include "tmcmc/stage_kernels.hpp"
@@ -33,31 +34,56 @@ Index chains_of(const Options& options) {
   return options.move == MoveKind::waste_free ? options.chains : options.samples;
 }
 
-/// Metropolis steps of a stage's chains: what the options say, or in the last stage as many as the budget holds.
-Index steps_of(const Options& options, Index evaluations, bool last) {
+/// Growth of beta that is assumed after the first stage, for want of an earlier temperature to compare with.
+constexpr double first_growth = 2.0;
+
+/// Stages that follow one which goes from `beta` to `next`, if log(beta) goes on growing by as much as in this one.
+double stages_after(double beta, double next) {
+  const double growth = portable_math::log(beta > 0.0 ? next / beta : first_growth);
+  return std::max(std::ceil(-portable_math::log(next) / std::max(growth, 1e-3)), 1.0);
+}
+
+/// Metropolis steps of the chains of the stage from `from` to `next`: what the options say, or in the last stage as many
+/// as the budget holds. Before the last stage, chains of waste-free share the budget with the stages that are expected to
+/// follow, so that the number of stages does not decide whether beta = 1 is reached.
+Index steps_of(const Options& options, const State& from, double next) {
   const Index chains = chains_of(options);
-  if (last && options.evaluation_budget > 0) {
-    return (options.evaluation_budget - evaluations) / chains;
+  const Index left = options.evaluation_budget - from.evaluations;
+  if (next == 1.0 && options.evaluation_budget > 0) {
+    return left / chains;
   }
-  return options.move == MoveKind::waste_free ? options.samples / chains - 1 : options.move_steps;
+  if (options.move != MoveKind::waste_free) {
+    return options.move_steps;
+  }
+  const Index steps = options.samples / chains - 1;
+  if (options.evaluation_budget == 0) {
+    return steps;
+  }
+  const double share = static_cast<double>(left / chains) / (stages_after(from.beta, next) + 1.0);
+  return std::clamp(static_cast<Index>(std::min(share, 1e15)), Index{1}, std::max(steps, Index{1}));
 }
 
 /// The same if they go on until they have mixed; no more than the budget holds.
-Index most_steps_of(const Options& options, Index evaluations, bool last) {
-  const Index steps = steps_of(options, evaluations, last);
-  if (options.mixing_correlation == 0.0 || (last && options.evaluation_budget > 0)) {
+Index most_steps_of(const Options& options, const State& from, double next) {
+  const Index steps = steps_of(options, from, next);
+  if (options.mixing_correlation == 0.0 || (next == 1.0 && options.evaluation_budget > 0)) {
     return steps;
   }
   const Index most = std::max(steps, options.max_move_steps);
   return options.evaluation_budget == 0
              ? most
-             : std::min(most, (options.evaluation_budget - evaluations) / chains_of(options));
+             : std::min(most, (options.evaluation_budget - from.evaluations) / chains_of(options));
 }
 
-bool fits_budget(const Options& options, const State& state, bool last) {
-  const Index steps = steps_of(options, state.evaluations, last);
+bool fits_budget(const Options& options, const State& from, double next) {
+  const Index steps = steps_of(options, from, next);
   return options.evaluation_budget == 0 ||
-         (steps >= 1 && steps * chains_of(options) <= options.evaluation_budget - state.evaluations);
+         (steps >= 1 && steps * chains_of(options) <= options.evaluation_budget - from.evaluations);
+}
+
+/// Temperature after a step, rounded as the stage has it.
+double temperature_after(const State& from, const Transition& transition) {
+  return transition.status == TransitionStatus::final_step ? 1.0 : from.beta + transition.step;
 }
 
 /// ScaleRule::acceptance_linked; without a random walk in the stage the scale stays.
@@ -149,7 +175,7 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   const Index n = from.points.rows();
   StageRecord record;
   record.stage = from.stage + 1;
-  record.beta = transition.status == TransitionStatus::final_step ? 1.0 : from.beta + transition.step;
+  record.beta = temperature_after(from, transition);
   record.step =
       record.beta - from.beta;  // rounded, so that a schedule of the betas repeats the run bit for bit
   record.effective_sample_size = transition.effective_sample_size;
@@ -175,14 +201,14 @@ StageRecord advance(const Problem& problem, const Options& options, const Stream
   to.gather(from.points, from.log_likelihood, ancestors, options.threads);
   record_descent(options, ancestors, from, to);
 
-  const bool last = record.beta == 1.0;
   const StageMoves moves =
-      move_population(options, kernels, ancestors, steps_of(options, from.evaluations, last),
-                      most_steps_of(options, from.evaluations, last), to, work.mover, work.moves);
+      move_population(options, kernels, ancestors, steps_of(options, from, record.beta),
+                      most_steps_of(options, from, record.beta), to, work.mover, work.moves);
   const MoveCounts& counts = moves.counts;
   record.acceptance_rate = static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
   record.evaluations = counts.evaluations;
   record.redraws = counts.redraws;
+  record.equilibrium_t = moves.equilibrium_t;
   record.move_steps = moves.steps;
   record.proposal_scale =
       options.scale_rule == ScaleRule::fixed ? options.proposal_scale : kernels.kernels.front().scale;
@@ -222,7 +248,7 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
       result.stop = StopReason::step_too_small;
       break;
     }
-    if (!fits_budget(options, state, transition.status == TransitionStatus::final_step)) {
+    if (!fits_budget(options, state, temperature_after(state, transition))) {
       result.stop = StopReason::budget;
       break;
     }

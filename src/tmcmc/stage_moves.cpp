@@ -110,6 +110,7 @@ StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index 
     result.counts += step_and_adapt(options, kernels, result.steps++, chains, mover);
     keep();
   }
+  result.equilibrium_t = equilibrium_t(walkers.log_likelihood, m);
   return result;
 }
 
@@ -144,6 +145,28 @@ StageMoves move_population(const Options& options, StageKernels& kernels, std::s
       break;
   }
   return keep_last_states(options, kernels, steps, most_steps, walkers, mover, work.starts);
+}
+
+double equilibrium_t(const Eigen::VectorXd& log_likelihood, Index chains) {
+  const Index states = chains > 0 ? log_likelihood.size() / chains : 0;
+  const Index third = std::max(states / 3, Index{1});
+  if (states < 2 || chains < 3) {
+    return 0.0;
+  }
+  double sum = 0.0;
+  double squares = 0.0;
+  for (Index c = 0; c < chains; ++c) {
+    double drift = 0.0;
+    for (Index k = 0; k < third; ++k) {
+      drift += log_likelihood[(states - 1 - k) * chains + c] - log_likelihood[k * chains + c];
+    }
+    drift /= static_cast<double>(third);
+    sum += drift;
+    squares += drift * drift;
+  }
+  const double m = static_cast<double>(chains);
+  const double variance = (squares - sum * sum / m) / (m - 1.0);
+  return variance > 0.0 ? sum / std::sqrt(m * variance) : 0.0;
 }
 
 double largest_correlation(const Population& a, const Population& b) {

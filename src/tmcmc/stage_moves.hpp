@@ -24,8 +24,9 @@ struct StageKernels {
 
 /// What the moves of a stage did.
 struct StageMoves {
-  MoveCounts counts;  ///< over all chains and steps
-  Index steps = 0;    ///< Metropolis steps of each chain; of the longest one with growing chains
+  MoveCounts counts;           ///< over all chains and steps
+  double equilibrium_t = 0.0;  ///< see StageRecord::equilibrium_t
+  Index steps = 0;             ///< Metropolis steps of each chain; of the longest one with growing chains
 };
 
 /// Moves the starts of a stage.
@@ -41,5 +42,9 @@ StageMoves move_population(const Options& options, StageKernels& kernels, std::s
 /// Largest absolute correlation, over the parameters, between the rows of two populations; constant parameters are
 /// left out.
 [[nodiscard]] double largest_correlation(const Population& a, const Population& b);
+
+/// Whether the log-likelihood drifts along the chains of a population: StageRecord::equilibrium_t.
+/// \param log_likelihood  state k of chain c at entry k * chains + c
+[[nodiscard]] double equilibrium_t(const Eigen::VectorXd& log_likelihood, Index chains);
 
 }  // namespace tmcmc
