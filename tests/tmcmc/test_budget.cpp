@@ -3,6 +3,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
+#include "tmcmc/problems.hpp"
 #include "tmcmc/replicates.hpp"
 
 namespace {
@@ -91,4 +92,61 @@ TEST_CASE("the recommended options keep their budget", "[tmcmc][budget]") {
     CHECK(budget - result.final.evaluations < 10);
   }
   CHECK_THROWS_AS(tmcmc::recommended_options(499), std::invalid_argument);
+}
+
+namespace {
+
+/// Two parameters known to 1 in 10^4 of the prior's width and a third to 1 in 10^5: some twenty stages.
+Problem needle() {
+  return {problems::by_rows([](const auto& x) {
+            const double a = (x[0] - 0.6) / 2e-4;
+            const double b = (x[1] + 0.3) / 2e-4;
+            const double c = (x[2] - 0.1) / 2e-5;
+            return -0.5 * (a * a + b * b + c * c);
+          }),
+          tmcmc::BoxPrior(Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(1.0))};
+}
+
+}  // namespace
+
+TEST_CASE("a posterior of many stages is reached with any budget, large or small", "[tmcmc][budget]") {
+  for (const Index chains : {10, 100}) {
+    for (const Index budget : {2600, 5200, 31000, 200000}) {
+      CAPTURE(chains, budget);
+      const Options options = tmcmc::recommended_options(budget, chains);
+      const Result result = tmcmc::run(needle(), options, {.seed = 61});
+      CHECK(result.stop == StopReason::completed);
+      CHECK(result.stages.size() > 13);
+      CHECK(result.final.evaluations <= budget);
+      CHECK(budget - result.final.evaluations < chains);
+    }
+  }
+}
+
+TEST_CASE("populations under a budget are no larger than samples, and shrink where many stages are ahead",
+          "[tmcmc][budget]") {
+  const Options options = tmcmc::recommended_options(31000);
+  std::vector<Index> sizes;
+  const Result result = tmcmc::run(needle(), options, {.seed = 62}, [&](const tmcmc::Progress& progress) {
+    sizes.push_back(progress.state.points.rows());
+  });
+  REQUIRE(sizes.size() > 13);
+  CHECK(sizes.front() == options.samples);
+  for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
+    CHECK(sizes[i] <= options.samples);
+    CHECK(sizes[i] % options.chains == 0);
+  }
+  CHECK(sizes[2] < options.samples);
+}
+
+TEST_CASE("a run under a budget goes on from any stage as if it had not been stopped", "[tmcmc][budget]") {
+  const Options options = tmcmc::recommended_options(5200);
+  std::vector<tmcmc::Progress> kept;
+  const Result whole =
+      tmcmc::run(needle(), options, {.seed = 63}, [&](const tmcmc::Progress& p) { kept.push_back(p); });
+  for (const std::size_t stage : {std::size_t{1}, kept.size() / 2}) {
+    const Result resumed = tmcmc::resume(needle(), options, {.seed = 63}, kept[stage]);
+    CHECK(resumed.final.points == whole.final.points);
+    CHECK(resumed.evidence.log_evidence == whole.evidence.log_evidence);
+  }
 }

@@ -246,3 +246,52 @@ TEST_CASE("every kind of warning has its cause, and says what it found", "[tmcmc
                Contains("log-evidence") && Contains("above 1"));
   }
 }
+
+TEST_CASE("the drift along the chains is the t value of last third minus first third",
+          "[tmcmc][diagnostics]") {
+  // Three chains of six states, entry k * 3 + c: rises by 4, 5 and 9 between thirds of two states.
+  Eigen::VectorXd values(18);
+  values << 0, 1, 2,  //
+      2, 1, 0,        //
+      7, 7, 7,        //
+      -7, -7, -7,     //
+      5, 6, 10,       //
+      5, 6, 10;
+  // Mean 6, standard deviation sqrt(7), standard error sqrt(7 / 3).
+  CHECK(tmcmc::equilibrium_t(values, 3) == Approx(6.0 / std::sqrt(7.0 / 3.0)).epsilon(1e-14));
+  CHECK(tmcmc::equilibrium_t(-values, 3) == Approx(-6.0 / std::sqrt(7.0 / 3.0)).epsilon(1e-14));
+  CHECK(tmcmc::equilibrium_t(Eigen::VectorXd::Constant(18, 3.0), 3) == 0.0);
+  CHECK(tmcmc::equilibrium_t(values.head(3), 3) == 0.0);                        // one state a chain
+  CHECK(tmcmc::equilibrium_t(values, 2) == 0.0);                                // two chains
+  CHECK(tmcmc::equilibrium_t(values.head(6), 3) == Approx(0.0).margin(1e-14));  // +2, 0, -2
+}
+
+TEST_CASE("few healthy runs, and nearly all that outran their chains, are said not to be in equilibrium",
+          "[tmcmc][diagnostics]") {
+  const auto alarms = [](const Problem& problem, Index evaluations, Index chains, std::uint32_t runs) {
+    Index count = 0;
+    for (std::uint32_t run = 0; run < runs; ++run) {
+      const Result result =
+          tmcmc::run(problem, tmcmc::recommended_options(evaluations, chains), {.seed = 71, .run = run});
+      count += warns(result, WarningKind::not_in_equilibrium) ? 1 : 0;
+    }
+    return count;
+  };
+  // At 1 % of false alarms, 7 or more of 250 would have a probability of 1 in 70; at 2 %, 3 or fewer 1 in 4.
+  CHECK(alarms(gamma_normal(), 5000, 10, 250) < 7);
+  CHECK(alarms(gamma_normal(), 5000, 100, 250) < 7);
+  // A mean and a noise level of nine readings that agree to 1 in 10^4 of the prior: the noise is found last.
+  const Problem precise = {
+      problems::by_rows([](const auto& x) {
+        double sum = 0.0;
+        for (int k = -4; k <= 4; ++k) {
+          const double a = (x[0] - 0.3 - 2e-4 * k) / x[2];
+          const double b = (x[1] + 0.2 - 2e-4 * k) / x[2];
+          sum -= 0.5 * (a * a + b * b) + 2.0 * std::log(x[2]);
+        }
+        return sum;
+      }),
+      tmcmc::BoxPrior(Eigen::Vector3d(-1.0, -1.0, 1e-4), Eigen::Vector3d(1.0, 1.0, 0.1))};
+  CHECK(alarms(precise, 5200, 100, 40) >= 36);
+  CHECK(alarms(precise, 31000, 100, 40) >= 36);
+}
