@@ -26,9 +26,7 @@ namespace {
 /// The recommended sampler with chains enough that a batch is worth the start of a program.
 tmcmc::Options sampler_options(long evaluations, int threads) {
   constexpr long chains = 100;
-  tmcmc::Options options = tmcmc::recommended_options(evaluations);
-  options.chains = chains;
-  options.samples = evaluations / (13 * chains) * chains;
+  tmcmc::Options options = tmcmc::recommended_options(evaluations, chains);
   options.threads = threads;
   return options;
 }

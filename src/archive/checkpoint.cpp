@@ -57,10 +57,10 @@ template <class Archive>
 void transfer_stage(Archive& archive, tmcmc::StageRecord& record) {
   auto& [stage, beta, step, effective_sample_size, coefficient_of_variation, log_evidence_increment,
          acceptance_rate, feasible, distinct_ancestors, evaluations, redraws, move_steps, proposal_scale,
-         transition_evaluations] = record;
+         equilibrium_t, transition_evaluations] = record;
   archive(stage, beta, step, effective_sample_size, coefficient_of_variation, log_evidence_increment,
           acceptance_rate, feasible, distinct_ancestors, evaluations, redraws, move_steps, proposal_scale,
-          transition_evaluations);
+          equilibrium_t, transition_evaluations);
 }
 
 /// Writes or reads a progress whose bridge has the sums.

@@ -57,7 +57,7 @@ inline std::vector<std::pair<std::string, tmcmc::Options>> every_kind() {
 
 inline std::vector<double> numbers(const tmcmc::StageRecord& record) {
   const auto& [stage, beta, step, effective, variation, increment, acceptance, feasible, distinct,
-               evaluations, redraws, steps, scale, transition] = record;
+               evaluations, redraws, steps, scale, drift, transition] = record;
   return {static_cast<double>(stage),
           beta,
           step,
@@ -71,6 +71,7 @@ inline std::vector<double> numbers(const tmcmc::StageRecord& record) {
           static_cast<double>(redraws),
           static_cast<double>(steps),
           scale,
+          drift,
           static_cast<double>(transition)};
 }
 
