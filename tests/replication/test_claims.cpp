@@ -89,7 +89,8 @@ TEST_CASE("each claim has its judge, and other names have none", "[claims]") {
                                          Verdict::contradicted,    Verdict::contradicted,
                                          Verdict::cannot_be_tested};
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    const std::string id = "C" + std::to_string(i + 1);
+    std::string id = std::to_string(i + 1);
+    id.insert(id.begin(), 'C');
     CAPTURE(id);
     CHECK(judge_claim(id, evidence).claim == expected[i]);
   }
