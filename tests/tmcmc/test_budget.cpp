@@ -1,5 +1,6 @@
 // The budget of likelihood evaluations.
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 
@@ -55,7 +56,8 @@ TEST_CASE("a budget of evaluations is kept, and the last stage uses it up", "[tm
           CHECK(result.final.stage == static_cast<Index>(result.stages.size()));
         }
         CHECK((result.stop == StopReason::completed || budget < 10000));
-        CHECK((result.stop == StopReason::budget || budget > 1000));
+        // Waste-free shortens its chains until one step is left.
+        CHECK((result.stop == StopReason::budget || budget > (move == MoveKind::waste_free ? 301 : 1000)));
       }
     }
   }
@@ -136,7 +138,7 @@ TEST_CASE("populations under a budget are no larger than samples, and shrink whe
     CHECK(sizes[i] <= options.samples);
     CHECK(sizes[i] % options.chains == 0);
   }
-  CHECK(sizes[2] < options.samples);
+  CHECK(*std::min_element(sizes.begin() + 1, sizes.end() - 1) < options.samples);
 }
 
 TEST_CASE("a run under a budget goes on from any stage as if it had not been stopped", "[tmcmc][budget]") {
