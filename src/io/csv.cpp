@@ -148,19 +148,17 @@ void CsvTable::require_text(const Line& part, std::size_t place) const {
 void CsvTable::parse_line(const Line& line, std::vector<Cell>& cells) {
   const auto& [begin, end, number] = line;
   const std::size_t first_cell = cells.size();
-  const bool is_comment = width_ > 0 && buffer_[begin] == '#';
-  const std::string start = is_comment ? quoted_value(view({begin, end - begin})) : std::string();
   const auto column = [&] { return column_label(cells.size() - first_cell); };
   const auto value_of = [&](std::size_t from, std::size_t to) {
     return quoted_value(view({from, to - from}));
   };
   const auto refuse_width = [&](const std::string& found, std::string_view how_many) {
-    if (is_comment) {
-      complain(number, column_label(0), start,
-               fmt::format("{} cells, as in the header, and no comments", width_));
-    }
     complain(number, column(), found, fmt::format("{} cells, as in the header, not {}", width_, how_many));
   };
+  if (width_ > 0 && trimmed(view({begin, end - begin})).starts_with('#')) {
+    complain(number, column_label(0), value_of(begin, end),
+             fmt::format("{} cells, as in the header, and no comments", width_));
+  }
   std::size_t position = begin;
   for (;; ++position) {
     std::size_t from = position;

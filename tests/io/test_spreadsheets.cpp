@@ -181,7 +181,7 @@ TEST_CASE_METHOD(CsvFixture, "a header behind the sign of a comment is the heade
 }
 
 TEST_CASE_METHOD(CsvFixture, "a hash elsewhere is text, or explained on its line", "[io][csv][spreadsheet]") {
-  CHECK(table("x,y\n#1,a\n2,#b\n").text("x") == std::vector<std::string>{"#1", "2"});
+  CHECK(table("x,y\n\"#1\",a\n2,#b\n").text("x") == std::vector<std::string>{"#1", "2"});
   CHECK(table("\"#x\",y\n\"# 1\",a\n").text("#x") == std::vector<std::string>{"# 1"});
   const std::vector<Refused> files = {
       {"a comment between rows", "x,y\n1.5,a\n# moved, on 4 May, at noon\n-2,b\n",
@@ -189,6 +189,10 @@ TEST_CASE_METHOD(CsvFixture, "a hash elsewhere is text, or explained on its line
        "comments"},
       {"a comment below", "x,y\n1.5,a\n# end\n",
        "3: column 'x': value '# end': expected 2 cells, as in the header, and no comments"},
+      {"a row behind the sign of a comment", "x,y\n1.5,a\n#-2,b\n3,c\n",
+       "3: column 'x': value '#-2,b': expected 2 cells, as in the header, and no comments"},
+      {"the same behind blanks", "x,y\n1.5,a\n  # -2,b\n",
+       "3: column 'x': value '# -2,b': expected 2 cells, as in the header, and no comments"},
       {"a comment above the header", "# tower 4, west\nx,y\n1.5,a\n-2,b\n",
        "1: column 1: value '# tower 4, west': expected the header, without lines that begin with # above it"},
       {"a comment below a blank line", "\n##tower 4\nx,y\n1.5,2\n",
