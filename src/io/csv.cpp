@@ -146,7 +146,9 @@ void CsvTable::require_text(const Line& part, std::size_t place) const {
 }
 
 void CsvTable::parse_line(const Line& line, std::vector<Cell>& cells) {
-  const auto& [begin, end, number] = line;
+  const std::size_t begin = line.begin;
+  const std::size_t end = line.end;
+  const std::size_t number = line.number;
   const std::size_t first_cell = cells.size();
   const auto column = [&] { return column_label(cells.size() - first_cell); };
   const auto value_of = [&](std::size_t from, std::size_t to) {

@@ -33,8 +33,8 @@ class InputError : public std::runtime_error {
  public:
   /// An error that no place in a file belongs to.
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  /// An error with its place; what() is describe(fault).
   explicit InputError(InputFault fault) : std::runtime_error(describe(fault)), fault_(std::move(fault)) {}
-
   /// The parts of the message; without a path if there is nothing but the message.
   [[nodiscard]] const InputFault& fault() const noexcept { return fault_; }
 

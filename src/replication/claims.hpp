@@ -54,12 +54,12 @@ struct Contrasts {
 
 /// Everything that the claims are judged by.
 struct ClaimEvidence {
-  const std::vector<StudySummary>& studies;
-  const std::vector<PrintedCounts>& counts;
-  const Contrasts& contrasts;
-  const Audit& audit;  ///< of the observations of Table 1
-  Truth stated;
-  double exceedance = 0.0;  ///< P(F_mu > stated force) of the exact posterior
+  const std::vector<StudySummary>& studies;  ///< replicated studies of both samplers
+  const std::vector<PrintedCounts>& counts;  ///< Table 4 as printed
+  const Contrasts& contrasts;                ///< verdicts on the differences of the samplers
+  const Audit& audit;                        ///< of the observations of Table 1
+  Truth stated;                              ///< values that the paper states
+  double exceedance = 0.0;                   ///< P(F_mu > stated force) of the exact posterior
 };
 
 /// \param id  "C1" to "C9"

@@ -19,16 +19,16 @@ struct BothModels {
 
 /// One motion: phases in deg, NaN where a model has none.
 struct PhasePoint {
-  double force_ratio = 0.0;
-  double exact_deg = 0.0;
-  double published_deg = 0.0;
-  double integrated_deg = 0.0;
-  int stops_per_period = 0;
+  double force_ratio = 0.0;     ///< friction force over driving force
+  double exact_deg = 0.0;       ///< closed form
+  double published_deg = 0.0;   ///< bin of the published transform
+  double integrated_deg = 0.0;  ///< integration in time
+  int stops_per_period = 0;     ///< of the integrated motion
 };
 
 /// Motions at one frequency ratio, and what the integration in time says of the models.
 struct PhaseCheck {
-  double frequency_ratio = 0.0;
+  double frequency_ratio = 0.0;         ///< driving over natural frequency
   double limit_force_ratio = 0.0;       ///< phi_lim, exact
   double limit_force_ratio_grid = 0.0;  ///< phi_lim as published
   std::vector<PhasePoint> points;       ///< force ratios equidistant from 0 to 1
@@ -51,9 +51,9 @@ struct PhaseCheck {
 
 /// What the published discretisation is off at one frequency ratio.
 struct DiscretisationError {
-  double frequency_ratio = 0.0;
-  double phase_deg = 0.0;       ///< published phase minus the exact one
-  double limit_relative = 0.0;  ///< published limit over the exact one, minus 1
+  double frequency_ratio = 0.0;  ///< driving over natural frequency
+  double phase_deg = 0.0;        ///< published phase minus the exact one
+  double limit_relative = 0.0;   ///< published limit over the exact one, minus 1
 };
 
 /// Errors of the published discretisation at frequency ratios equidistant from `lowest` to `highest`, singular ones left out.
