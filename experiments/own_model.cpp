@@ -9,14 +9,14 @@
 #include <optional>
 #include <stdexcept>
 
-#include "archive/checkpoint.hpp"
 #include "errors/invalid_value.hpp"
-#include "external/program.hpp"
 #include "inputs.hpp"
 #include "kept_run.hpp"
+#include "models/program.hpp"
 #include "models/ranks.hpp"
-#include "netcdf/inference_data.hpp"
 #include "shear_frame.hpp"
+#include "storage/checkpoint.hpp"
+#include "storage/inference_data.hpp"
 #include "tmcmc/diagnostics.hpp"
 
 using namespace experiments;
@@ -65,14 +65,14 @@ Model other_program(const ModelOptions& options, bool for_netcdf) {
       throw errors::InvalidValue("parameter", name, "a printable name other than log_likelihood");
     }
     if (for_netcdf) {
-      netcdf::require_parameter_name(name);
+      storage::require_parameter_name(name);
     }
   };
   auto [names, prior] = read_named_prior(options.prior, require_name);
-  external::Program program({options.command, names, options.timeout_seconds});
-  std::string description = "program with checksum " + archive::file_checksum(options.command);
+  models::Program program({options.command, names, options.timeout_seconds});
+  std::string description = "program with checksum " + storage::file_checksum(options.command);
   if (options.observations != ModelOptions().observations) {
-    description += ", observations with checksum " + archive::file_checksum(options.observations);
+    description += ", observations with checksum " + storage::file_checksum(options.observations);
   }
   description +=
       fmt::format(", {}, parameters {}", io::printable_path(std::filesystem::canonical(options.command)),
@@ -80,12 +80,12 @@ Model other_program(const ModelOptions& options, bool for_netcdf) {
   return {std::move(names), std::move(prior), std::move(program), description, std::nullopt};
 }
 
-netcdf::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {
-  netcdf::InferenceData data{.parameter_names = model.parameter_names,
-                             .samples = result.final.points,
-                             .log_likelihood = result.final.log_likelihood};
+storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {
+  storage::InferenceData data{.parameter_names = model.parameter_names,
+                              .samples = result.final.points,
+                              .log_likelihood = result.final.log_likelihood};
   const auto stages = [&](const std::string& name, auto member) {
-    netcdf::Column column{name, {}};
+    storage::Column column{name, {}};
     for (const auto& stage : result.stages) {
       column.second.push_back(static_cast<double>(stage.*member));
     }
@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
                       io::printable_path(netcdf_path)));
     }
 
-    archive::RunDescription run{sampler_options(evaluations, run_options.study_options().threads),
+    storage::RunDescription run{sampler_options(evaluations, run_options.study_options().threads),
                                 {.seed = run_options.seed},
                                 model.prior,
                                 model.description};
@@ -212,7 +212,7 @@ int main(int argc, char** argv) {
     }
     const auto result = run_kept(run, *shared, checkpoint);
     if (result.stop != tmcmc::StopReason::completed) {  // not the posterior: nothing that looks like it
-      archive::remove_checkpoint(checkpoint);
+      storage::remove_checkpoint(checkpoint);
       throw std::runtime_error(fmt::format("ended at beta = {:.4g} after {} stages: {}{}", result.final.beta,
                                            result.stages.size(), tmcmc::describe(result.stop),
                                            advice(result.stop)));
@@ -226,9 +226,9 @@ int main(int argc, char** argv) {
       }
     }
     if (netcdf_file) {
-      netcdf::write_inference_data(*netcdf_file, inference_data(result, model, run_options.seed));
+      storage::write_inference_data(*netcdf_file, inference_data(result, model, run_options.seed));
     }
     io::commit_all(csv, netcdf_file);
-    archive::remove_checkpoint(checkpoint);
+    storage::remove_checkpoint(checkpoint);
   });
 }

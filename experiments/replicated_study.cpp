@@ -8,11 +8,11 @@
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
 
-#include "archive/settings.hpp"
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "io/journal.hpp"
 #include "replication/replication.hpp"
+#include "storage/settings.hpp"
 
 using namespace experiments;
 
@@ -48,7 +48,7 @@ std::string key(const replication::Reading& reading, const std::vector<replicati
                                  first_study, options.runs, options.seed);
   for (const auto& arm : arms) {
     text += fmt::format(" | {}", arm.name);
-    for (const auto& [name, value] : archive::settings(arm.options)) {
+    for (const auto& [name, value] : storage::settings(arm.options)) {
       text += fmt::format(" {}={}", name, value);
     }
   }

@@ -11,7 +11,7 @@
 
 namespace experiments {
 
-tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikelihood& model,
+tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
                        const std::string& checkpoint) {
   const auto log_likelihood = interruptible(model);
   if (checkpoint.empty()) {
@@ -25,7 +25,7 @@ tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikel
   double beta = -1.0;
   std::size_t stages = 0;
   try {
-    return archive::run_with_checkpoint(checkpoint, run, log_likelihood,
+    return storage::run_with_checkpoint(checkpoint, run, log_likelihood,
                                         [&](const tmcmc::Progress& progress) {
                                           beta = progress.state.beta;
                                           stages = progress.stages.size();

@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "archive/checkpoint.hpp"
+#include "storage/checkpoint.hpp"
 
 namespace experiments {
 
-/// archive::run_with_checkpoint, or tmcmc::run if the path is empty.
+/// storage::run_with_checkpoint, or tmcmc::run if the path is empty.
 /// \throws as these, and io::Interrupted; what ends the run says in its message which stage is kept, and where.
-[[nodiscard]] tmcmc::Result run_kept(const archive::RunDescription& run, const tmcmc::LogLikelihood& model,
+[[nodiscard]] tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
                                      const std::string& checkpoint);
 
 }  // namespace experiments

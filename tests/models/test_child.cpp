@@ -11,18 +11,18 @@
 #include <string>
 #include <thread>
 
-#include "external/child.hpp"
 #include "io/interrupt.hpp"
 #include "io/temporary_directory.hpp"
+#include "models/child.hpp"
 
-using external::ChildEnd;
+using models::ChildEnd;
 namespace fs = std::filesystem;
 
 namespace {
 
 ChildEnd run_shell(const std::string& script, double timeout_seconds = 0.0,
                    const std::string& directory = "/") {
-  return external::run_child({"/bin/sh", "-c", script}, directory, timeout_seconds);
+  return models::run_child({"/bin/sh", "-c", script}, directory, timeout_seconds);
 }
 
 /// A pipe whose writing end children inherit: it closes when the last of them has ended.
@@ -46,27 +46,27 @@ class Lifeline {
 
 }  // namespace
 
-TEST_CASE("a child ends by itself, by a signal, or was never begun", "[external][child]") {
+TEST_CASE("a child ends by itself, by a signal, or was never begun", "[models][child]") {
   const ChildEnd done = run_shell("exit 3");
   CHECK(done.kind == ChildEnd::Kind::exited);
   CHECK(done.value == 3);
   const ChildEnd crashed = run_shell("kill -SEGV $$");
   CHECK(crashed.kind == ChildEnd::Kind::signalled);
   CHECK(crashed.value == SIGSEGV);
-  const ChildEnd missing = external::run_child({"/none/such"}, "/", 0.0);
+  const ChildEnd missing = models::run_child({"/none/such"}, "/", 0.0);
   CHECK(missing.kind == ChildEnd::Kind::not_started);
   CHECK(missing.value == ENOENT);
   const TemporaryDirectory directory;
   const fs::path text = directory.path() / "no_first_line";
   std::ofstream(text) << "echo\n";
   fs::permissions(text, fs::perms::owner_all);
-  const ChildEnd unknown = external::run_child({text.string()}, "/", 0.0);
+  const ChildEnd unknown = models::run_child({text.string()}, "/", 0.0);
   CHECK(unknown.kind == ChildEnd::Kind::not_started);
   CHECK(unknown.value == ENOEXEC);
 }
 
 TEST_CASE("a child starts in its directory, with nothing to read and with default signals",
-          "[external][child]") {
+          "[models][child]") {
   const TemporaryDirectory directory;
   io::catch_interrupts();  // ignores SIGXFSZ
   const ChildEnd end = run_shell("pwd -P >where; cat >read; grep SigIgn /proc/self/status >ignored", 0.0,
@@ -78,7 +78,7 @@ TEST_CASE("a child starts in its directory, with nothing to read and with defaul
   CHECK((ignored >> (SIGXFSZ - 1) & 1U) == 0U);
 }
 
-TEST_CASE("when the time is over the whole group is killed", "[external][child]") {
+TEST_CASE("when the time is over the whole group is killed", "[models][child]") {
   Lifeline lifeline;
   const auto start = std::chrono::steady_clock::now();
   const ChildEnd end = run_shell("sleep 30 & sleep 30", 0.3);
@@ -87,14 +87,14 @@ TEST_CASE("when the time is over the whole group is killed", "[external][child]"
   CHECK(lifeline.all_have_ended());
 }
 
-TEST_CASE("what a child has left running ends with it", "[external][child]") {
+TEST_CASE("what a child has left running ends with it", "[models][child]") {
   Lifeline lifeline;
   const ChildEnd end = run_shell("sleep 30 & exit 0");
   CHECK(end.kind == ChildEnd::Kind::exited);
   CHECK(lifeline.all_have_ended());
 }
 
-TEST_CASE("an interrupt kills the groups of all threads and is thrown", "[external][child]") {
+TEST_CASE("an interrupt kills the groups of all threads and is thrown", "[models][child]") {
   for (const bool ignores_signals : {false, true}) {
     Lifeline lifeline;
     const pid_t process = ::fork();

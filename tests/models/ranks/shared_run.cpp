@@ -15,8 +15,8 @@
 #include <sstream>
 #include <thread>
 
-#include "archive/checkpoint.hpp"
 #include "models/ranks.hpp"
+#include "storage/checkpoint.hpp"
 #include "tmcmc/problems.hpp"
 
 namespace {
@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
   int status = 0;
   try {
     if (const auto shared = ranks.share(problem.log_likelihood)) {
-      const archive::RunDescription run{options_of(moves), {.seed = 5}, problem.prior, "the ridge"};
-      static_cast<void>(archive::run_with_checkpoint(checkpoint, run, *shared));
+      const storage::RunDescription run{options_of(moves), {.seed = 5}, problem.prior, "the ridge"};
+      static_cast<void>(storage::run_with_checkpoint(checkpoint, run, *shared));
       std::filesystem::rename(checkpoint, output);
     }
   } catch (const std::exception& error) {

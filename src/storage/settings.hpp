@@ -10,7 +10,7 @@
 #include "tmcmc/prior.hpp"
 #include "tmcmc/random.hpp"
 
-namespace archive {
+namespace storage {
 
 /// All that the numbers of a run depend on.
 struct RunDescription {
@@ -32,4 +32,4 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// \throws std::invalid_argument if the model's description is not one line.
 [[nodiscard]] Settings settings(const RunDescription& run);
 
-}  // namespace archive
+}  // namespace storage

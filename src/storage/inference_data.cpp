@@ -1,4 +1,4 @@
-#include "netcdf/inference_data.hpp"
+#include "storage/inference_data.hpp"
 
 #include <netcdf.h>
 #include <netcdf_mem.h>
@@ -10,7 +10,7 @@
 
 #include "errors/invalid_value.hpp"
 
-namespace netcdf {
+namespace storage {
 
 namespace {
 
@@ -171,4 +171,4 @@ void write_inference_data(io::OutputFile& output, const InferenceData& data) {
   output.write(file.finish());
 }
 
-}  // namespace netcdf
+}  // namespace storage

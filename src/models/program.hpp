@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace external {
+namespace models {
 
 /// What is called, and how long it may take.
 struct ProgramOptions {
@@ -52,4 +52,4 @@ class Program {
   ProgramOptions options_;
 };
 
-}  // namespace external
+}  // namespace models

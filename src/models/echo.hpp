@@ -8,7 +8,7 @@
 
 #include "io/csv.hpp"
 
-namespace external {
+namespace models {
 
 /// Columns of a table of results that have the names of parameters: the program has written its points back.
 class Echo {
@@ -28,4 +28,4 @@ class Echo {
   std::vector<Eigen::Index> parameters_;
 };
 
-}  // namespace external
+}  // namespace models

@@ -1,4 +1,4 @@
-#include "external/start_failure.hpp"
+#include "models/start_failure.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "io/errors.hpp"
 
-namespace external {
+namespace models {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::string explain_command_not_run(const std::string& program, int status) {
                      first_line.ends_with('\r') ? ", which ends in CR LF, as on Windows" : "");
 }
 
-}  // namespace external
+}  // namespace models

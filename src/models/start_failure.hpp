@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace external {
+namespace models {
 
 /// Explains a failed exec by the first bytes of the program: an interpreter that is missing, line ends of Windows, no `#!`.
 /// \param error  errno of the exec
@@ -15,4 +15,4 @@ namespace external {
 /// line, in parentheses behind a space. Empty for other programs and statuses.
 [[nodiscard]] std::string explain_command_not_run(const std::string& program, int status);
 
-}  // namespace external
+}  // namespace models

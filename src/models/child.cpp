@@ -1,4 +1,4 @@
-#include "external/child.hpp"
+#include "models/child.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,7 +15,7 @@
 
 #include "io/interrupt.hpp"
 
-namespace external {
+namespace models {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -104,4 +104,4 @@ ChildEnd run_child(const std::vector<std::string>& arguments, const std::string&
                              : ChildEnd{ChildEnd::Kind::exited, WEXITSTATUS(status)};
 }
 
-}  // namespace external
+}  // namespace models

@@ -11,21 +11,21 @@
 #include <iterator>
 #include <limits>
 
-#include "archive/checkpoint.hpp"
 #include "io/errors.hpp"
 #include "io/temporary_directory.hpp"
+#include "storage/checkpoint.hpp"
 #include "tmcmc/resumable.hpp"
 
 namespace {
 
-using archive::read_checkpoint;
-using archive::RunDescription;
-using archive::write_checkpoint;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using problems::ridge;
 using resumable::check_same_bits;
 using resumable::run_whole;
+using storage::read_checkpoint;
+using storage::RunDescription;
+using storage::write_checkpoint;
 using tmcmc::Index;
 using tmcmc::Options;
 using tmcmc::Progress;
@@ -87,7 +87,7 @@ std::string forged(const std::string& body) {
 }  // namespace
 
 TEST_CASE("stopped after any stage, written, read and resumed: the run, for every kind of option",
-          "[archive]") {
+          "[storage]") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "run.checkpoint";
   for (auto [name, options] : resumable::every_kind()) {
@@ -112,7 +112,7 @@ TEST_CASE("stopped after any stage, written, read and resumed: the run, for ever
   }
 }
 
-TEST_CASE("a run that dies at any evaluation and is started again and again is the run", "[archive]") {
+TEST_CASE("a run that dies at any evaluation and is started again and again is the run", "[storage]") {
   struct Killed {};
   for (const Index batch : {50, 400}) {
     const TemporaryDirectory directory;
@@ -126,7 +126,7 @@ TEST_CASE("a run that dies at any evaluation and is started again and again is t
     while (!result) {
       Index left = batch + 40 * ++starts;  // rows until it dies
       try {
-        result = archive::run_with_checkpoint(
+        result = storage::run_with_checkpoint(
             path, described(options),
             [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
               left -= points.rows();
@@ -145,7 +145,7 @@ TEST_CASE("a run that dies at any evaluation and is started again and again is t
       CHECK(stages[s] == static_cast<Index>(s));  // no stage was done twice
     }
     Index evaluated = 0;
-    check_same_bits(archive::run_with_checkpoint(path, described(options),
+    check_same_bits(storage::run_with_checkpoint(path, described(options),
                                                  [&](const Eigen::Ref<const Eigen::MatrixXd>& points,
                                                      Eigen::Ref<Eigen::VectorXd> values) {
                                                    evaluated += points.rows();
@@ -157,33 +157,33 @@ TEST_CASE("a run that dies at any evaluation and is started again and again is t
   }
 }
 
-TEST_CASE("only the file of a checkpoint is removed", "[archive]") {
+TEST_CASE("only the file of a checkpoint is removed", "[storage]") {
   namespace fs = std::filesystem;
   const Written written;
   const fs::path link = written.directory.path() / "link";
   fs::create_symlink("run.checkpoint", link);
-  archive::remove_checkpoint(link);
+  storage::remove_checkpoint(link);
   CHECK(fs::is_symlink(link));
   CHECK_FALSE(fs::exists(written.path));
-  archive::remove_checkpoint(link);  // now without its file
-  archive::remove_checkpoint(written.path);
+  storage::remove_checkpoint(link);  // now without its file
+  storage::remove_checkpoint(written.path);
   CHECK(fs::is_symlink(link));
 
   const fs::path pipe = written.directory.path() / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  archive::remove_checkpoint(pipe);
+  storage::remove_checkpoint(pipe);
   CHECK(fs::exists(pipe));
-  archive::remove_checkpoint(written.directory.path());
+  storage::remove_checkpoint(written.directory.path());
   CHECK(fs::exists(written.directory.path()));
 
   std::ofstream(written.path) << "what is printed";
   const int descriptor = ::open(written.path.c_str(), O_RDONLY);
-  archive::remove_checkpoint("/dev/fd/" + std::to_string(descriptor));
+  storage::remove_checkpoint("/dev/fd/" + std::to_string(descriptor));
   ::close(descriptor);
   CHECK(fs::exists(written.path));
 }
 
-TEST_CASE("numbers come back bit for bit, extreme ones too", "[archive]") {
+TEST_CASE("numbers come back bit for bit, extreme ones too", "[storage]") {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Written written(small(false));
   Progress progress = run_whole(small(false)).progress.back();
@@ -206,12 +206,12 @@ TEST_CASE("numbers come back bit for bit, extreme ones too", "[archive]") {
   CHECK(read->state.log_evidence == progress.state.log_evidence);
 }
 
-TEST_CASE("no file: nothing to go on from", "[archive]") {
+TEST_CASE("no file: nothing to go on from", "[storage]") {
   const TemporaryDirectory directory;
   CHECK_FALSE(read_checkpoint(directory.path() / "none", described(small())).has_value());
 }
 
-TEST_CASE("a checkpoint cut off at any byte is refused", "[archive][fault]") {
+TEST_CASE("a checkpoint cut off at any byte is refused", "[storage][fault]") {
   const Written written;
   for (std::size_t size = 0; size < written.text.size(); ++size) {
     put(written.path, written.text.substr(0, size));
@@ -223,7 +223,7 @@ TEST_CASE("a checkpoint cut off at any byte is refused", "[archive][fault]") {
   CHECK(refusal(written.path, written.run) == "accepted");
 }
 
-TEST_CASE("a checkpoint with any bit flipped, or with more at its end, is refused", "[archive][fault]") {
+TEST_CASE("a checkpoint with any bit flipped, or with more at its end, is refused", "[storage][fault]") {
   const Written written;
   for (std::size_t at = 0; at < written.text.size(); ++at) {
     std::string spoiled = written.text;
@@ -241,7 +241,7 @@ TEST_CASE("a checkpoint with any bit flipped, or with more at its end, is refuse
         "damaged or cut off: expected another checksum (delete it to start again)");
 }
 
-TEST_CASE("another format and other files are told apart", "[archive][fault]") {
+TEST_CASE("another format and other files are told apart", "[storage][fault]") {
   const Written written;
   put(written.path, "x,y\n1,2\n");
   CHECK(refusal(written.path, written.run) ==
@@ -254,7 +254,7 @@ TEST_CASE("another format and other files are told apart", "[archive][fault]") {
   CHECK_THAT(refusal(written.directory.path(), written.run), StartsWith("cannot be read"));
 }
 
-TEST_CASE("a checkpoint of other settings is refused with both values", "[archive][fault]") {
+TEST_CASE("a checkpoint of other settings is refused with both values", "[storage][fault]") {
   const Written written;
   const auto with = [&](const std::function<void(RunDescription&)>& change) {
     RunDescription run = written.run;
@@ -316,16 +316,16 @@ TEST_CASE("a checkpoint of other settings is refused with both values", "[archiv
     CAPTURE(what);
     CHECK_THAT(with(change), StartsWith("checkpoint was made with " + what));
   }
-  CHECK(changes.size() + 2 == archive::settings(written.run).size());
+  CHECK(changes.size() + 2 == storage::settings(written.run).size());
   CHECK(with([](auto& r) { r.options.threads = 3; }) == "accepted");
   CHECK(with([](auto& r) { r.options.batch_rows = 0; }) == "accepted");
   CHECK(with([](auto& r) { r.options.max_stages = 50; }) == "accepted");
   CHECK_THAT(with([](auto& r) { r.options.max_stages = 1; }),
              Contains("expected at most options.max_stages = 1, not 2"));
-  CHECK_THROWS_WITH(archive::settings({small(), {}, ridge().prior, "two\nlines"}), Contains("one line"));
+  CHECK_THROWS_WITH(storage::settings({small(), {}, ridge().prior, "two\nlines"}), Contains("one line"));
 }
 
-TEST_CASE("a file whose checksum fits is still read with care", "[archive][fault]") {
+TEST_CASE("a file whose checksum fits is still read with care", "[storage][fault]") {
   const Written written;
   const std::string body = written.text.substr(body_begins);
   put(written.path, forged(body));
@@ -363,7 +363,7 @@ TEST_CASE("a file whose checksum fits is still read with care", "[archive][fault
 }
 
 TEST_CASE("a model that has changed since the checkpoint is refused, and nothing is touched",
-          "[archive][fault]") {
+          "[storage][fault]") {
   const Options options = small(false);
   const auto whole = run_whole(options);
   for (std::size_t stage = 0; stage < whole.progress.size(); ++stage) {
@@ -381,7 +381,7 @@ TEST_CASE("a model that has changed since the checkpoint is refused, and nothing
         values[values.size() - 1] *= 1.0 + change;  // one sample is enough
       };
       CHECK_THROWS_WITH(
-          archive::run_with_checkpoint(path, described(options), changed),
+          storage::run_with_checkpoint(path, described(options), changed),
           StartsWith(path.string() + ": the model has changed: the log-likelihood of a sample in the "
                                      "checkpoint was -") &&
               Contains(" and is now -"));
@@ -391,26 +391,26 @@ TEST_CASE("a model that has changed since the checkpoint is refused, and nothing
   }
 }
 
-TEST_CASE("the checksum of a file is that of xz and sees every byte", "[archive]") {
+TEST_CASE("the checksum of a file is that of xz and sees every byte", "[storage]") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "model.py";
   put(path, "123456789");
-  CHECK(archive::file_checksum(path) == "995dc9bbdf1939fa");  // check value of CRC-64/XZ
+  CHECK(storage::file_checksum(path) == "995dc9bbdf1939fa");  // check value of CRC-64/XZ
   std::string large(200000, 'x');
   put(path, large);
-  const std::string before = archive::file_checksum(path);
+  const std::string before = storage::file_checksum(path);
   large.back() = 'y';
   put(path, large);
-  CHECK(archive::file_checksum(path) != before);
-  CHECK_THROWS_WITH(archive::file_checksum(directory.path() / "none"), Contains("none: cannot be read"));
-  CHECK_THROWS_AS(archive::file_checksum(directory.path()), io::InputError);
+  CHECK(storage::file_checksum(path) != before);
+  CHECK_THROWS_WITH(storage::file_checksum(directory.path() / "none"), Contains("none: cannot be read"));
+  CHECK_THROWS_AS(storage::file_checksum(directory.path()), io::InputError);
 }
 
-TEST_CASE("a path that cannot be written is found out before the first evaluation", "[archive][fault]") {
+TEST_CASE("a path that cannot be written is found out before the first evaluation", "[storage][fault]") {
   const TemporaryDirectory directory;
   bool called = false;
   CHECK_THROWS_AS(
-      archive::run_with_checkpoint(directory.path() / "none" / "run.checkpoint", described(small()),
+      storage::run_with_checkpoint(directory.path() / "none" / "run.checkpoint", described(small()),
                                    [&](const auto&, auto values) {
                                      called = true;
                                      values.setZero();

@@ -1,4 +1,4 @@
-#include "archive/settings.hpp"
+#include "storage/settings.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "io/csv.hpp"
 
-namespace archive {
+namespace storage {
 
 namespace {
 
@@ -106,4 +106,4 @@ Settings settings(const RunDescription& run) {
   return all;
 }
 
-}  // namespace archive
+}  // namespace storage

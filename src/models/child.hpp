@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace external {
+namespace models {
 
 /// How a child ended.
 struct ChildEnd {
@@ -23,4 +23,4 @@ struct ChildEnd {
 [[nodiscard]] ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& directory,
                                  double timeout_seconds);
 
-}  // namespace external
+}  // namespace models

@@ -23,7 +23,7 @@
 
 #include "io/files.hpp"
 
-namespace netcdf {
+namespace storage {
 
 /// Name and values.
 using Column = std::pair<std::string, std::vector<double>>;
@@ -58,4 +58,4 @@ void require_parameter_name(const std::string& name);
 /// \throws io::OutputError; errors::InvalidValue for lengths that do not agree or names that NetCDF refuses.
 void write_inference_data(io::OutputFile& output, const InferenceData& data);
 
-}  // namespace netcdf
+}  // namespace storage

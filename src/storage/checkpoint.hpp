@@ -2,17 +2,17 @@
 /// The progress of a run in a file, so that a run that was killed goes on after its last stage and ends with the same bytes.
 ///
 /// The file holds the line `tmcmc checkpoint 2`, a line with the CRC-32 (that of zlib) of all bytes behind it, and in the portable
-/// binary form of the library cereal what the run depends on (archive::settings) and its tmcmc::Progress.
+/// binary form of the library cereal what the run depends on (storage::settings) and its tmcmc::Progress.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "archive/settings.hpp"
+#include "storage/settings.hpp"
 #include "tmcmc/sampler.hpp"
 
-namespace archive {
+namespace storage {
 
 /// Writes the file anew; it appears complete or not at all (io::OutputFile).
 /// \throws io::OutputError; std::invalid_argument as settings.
@@ -47,4 +47,4 @@ void remove_checkpoint(const std::filesystem::path& path);
                                                 const tmcmc::LogLikelihood& log_likelihood,
                                                 const tmcmc::Observer& observer = {});
 
-}  // namespace archive
+}  // namespace storage

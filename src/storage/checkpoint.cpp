@@ -1,4 +1,4 @@
-#include "archive/checkpoint.hpp"
+#include "storage/checkpoint.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 #include "io/csv.hpp"
 #include "io/files.hpp"
 
-namespace archive {
+namespace storage {
 
 namespace {
 
@@ -235,4 +235,4 @@ tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDe
                   : tmcmc::run(problem, run.options, run.key, keep);
 }
 
-}  // namespace archive
+}  // namespace storage

@@ -1,4 +1,4 @@
-#include "external/echo.hpp"
+#include "models/echo.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <string_view>
 
-namespace external {
+namespace models {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::string Echo::mismatch(Eigen::Index row, const Eigen::Ref<const Eigen::Vecto
   return {};
 }
 
-}  // namespace external
+}  // namespace models

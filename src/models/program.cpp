@@ -1,4 +1,4 @@
-#include "external/program.hpp"
+#include "models/program.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,13 +11,13 @@
 #include <system_error>
 
 #include "errors/invalid_value.hpp"
-#include "external/child.hpp"
-#include "external/echo.hpp"
-#include "external/start_failure.hpp"
 #include "io/csv.hpp"
 #include "io/scratch_directory.hpp"
+#include "models/child.hpp"
+#include "models/echo.hpp"
+#include "models/start_failure.hpp"
 
-namespace external {
+namespace models {
 
 namespace {
 
@@ -135,4 +135,4 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   }
 }
 
-}  // namespace external
+}  // namespace models
