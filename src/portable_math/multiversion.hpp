@@ -1,12 +1,19 @@
 /// \file
-/// PORTABLE_MATH_MULTIVERSION before a function compiles it for the baseline and for AVX2; the program takes
-/// the one that the processor has. Without contraction both compute the same bits.
+/// PORTABLE_MATH_MULTIVERSION before a function compiles it for the baseline, for AVX2 and for AVX-512 (x86-64-v4); the
+/// program takes the best one that the processor has. Without contraction all compute the same bits.
+///
+/// Checks and measurements leave versions out: PORTABLE_MATH_NO_AVX512 the last one, PORTABLE_MATH_NO_MULTIVERSION all
+/// but that of the compiler's flags.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__) &&                     \
     !defined(__SANITIZE_ADDRESS__) && !defined(PORTABLE_MATH_NO_MULTIVERSION) && defined(__GNUC__) && \
     !defined(__clang__)
+#if defined(PORTABLE_MATH_NO_AVX512)
 #define PORTABLE_MATH_MULTIVERSION [[gnu::target_clones("default", "avx2")]]
+#else
+#define PORTABLE_MATH_MULTIVERSION [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
+#endif
 #else
 #define PORTABLE_MATH_MULTIVERSION
 #endif
