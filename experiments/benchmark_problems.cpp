@@ -27,14 +27,6 @@ double kolmogorov(std::vector<double> x, const std::function<double(double)>& cd
   return distance;
 }
 
-double root_mean_square(const std::vector<double>& values) {
-  double squares = 0.0;
-  for (const double value : values) {
-    squares += value * value / static_cast<double>(values.size());
-  }
-  return std::sqrt(squares);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -101,15 +93,15 @@ int main(int argc, char** argv) {
       const auto mean_error = replication::moments(errors).mean;
       const auto mass = replication::moments(masses);
       program.report("{:<24} {:>8.0f} {:>7.1f} {:>9.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.4f} {:>16}\n", p.name,
-                     evaluations, stages, p.log_evidence, mean_error, root_mean_square(errors),
-                     root_mean_square(standard_errors), distance,
+                     evaluations, stages, p.log_evidence, mean_error, statistics::root_mean_square(errors),
+                     statistics::root_mean_square(standard_errors), distance,
                      p.in_first_mode ? fmt::format("{:.3f} +- {:.3f}, {:.3f}", mass.mean,
                                                    mass.standard_deviation, p.first_mode_mass)
                                      : "");
       if (csv) {
         csv->row(p.name, p.problem.prior.dimension(), evaluations, stages, digits(p.log_evidence), mean_error,
-                 root_mean_square(errors), root_mean_square(standard_errors), inside, digits(distance, 4),
-                 digits(p.first_mode_mass, 6), mass.mean, mass.standard_deviation);
+                 statistics::root_mean_square(errors), statistics::root_mean_square(standard_errors), inside,
+                 digits(distance, 4), digits(p.first_mode_mass, 6), mass.mean, mass.standard_deviation);
       }
     }
     io::commit_all(csv);

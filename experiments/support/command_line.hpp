@@ -16,9 +16,9 @@
 #include "io/csv.hpp"
 #include "io/progress.hpp"
 #include "option_checks.hpp"
-#include "replication/deviance_test.hpp"
 #include "replication/reading.hpp"
 #include "replication/study.hpp"
+#include "statistics/deviance_test.hpp"
 
 namespace CLI {
 class
@@ -160,7 +160,7 @@ struct SamplerOptions {
 
 /// --tables.
 struct TableOptions {
-  replication::TableDraws draws;
+  statistics::TableDraws draws;
 
   void add_to(Program& program);
 };

@@ -5,19 +5,11 @@
 #include <limits>
 
 #include "errors/invalid_value.hpp"
+#include "statistics/summary.hpp"
+
 namespace replication {
 
-namespace {
-
-double root_mean_square(const std::vector<double>& values) {
-  double squares = 0.0;
-  for (const double value : values) {
-    squares += value * value / static_cast<double>(values.size());
-  }
-  return std::sqrt(squares);
-}
-
-}  // namespace
+using statistics::root_mean_square;
 
 Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth) {
   const Eigen::Index d = truth.mean.size();

@@ -4,11 +4,20 @@
 
 #include <optional>
 
-#include "replication/deviance_test.hpp"
 #include "replication/replication.hpp"
 #include "replication/verdict.hpp"
+#include "statistics/deviance_test.hpp"
 
 namespace replication {
+
+using statistics::category_probabilities;
+using statistics::Counts;
+using statistics::DevianceTest;
+using statistics::log_multinomial;
+using statistics::TableDraws;
+using statistics::test_tables;
+using statistics::test_two_tables;
+using statistics::total_of;
 
 /// Number of an area: which parameter's.
 struct PrintedArea {

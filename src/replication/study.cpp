@@ -5,7 +5,6 @@
 
 #include "errors/invalid_value.hpp"
 #include "pbox/pbox.hpp"
-#include "portable_math/sums.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/parallel.hpp"
 
@@ -26,21 +25,6 @@ void StudyOptions::validate() const {
   if (threads < 1) {
     throw errors::InvalidValue("threads", threads, "at least 1");
   }
-}
-
-Moments moments(std::span<const double> values) {
-  if (values.empty()) {
-    throw errors::InvalidValue("values", "", "at least one");
-  }
-  const std::size_t n = values.size();
-  const double count = static_cast<double>(n);
-  const double mean = portable_math::sum_of(n, [&](std::size_t i) { return values[i]; }) / count;
-  if (n == 1) {
-    return {mean, std::numeric_limits<double>::quiet_NaN()};
-  }
-  const double squares =
-      portable_math::sum_of(n, [&](std::size_t i) { return (values[i] - mean) * (values[i] - mean); });
-  return {mean, std::sqrt(squares / (count - 1.0))};
 }
 
 std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,

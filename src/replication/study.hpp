@@ -6,8 +6,12 @@
 #include <map>
 
 #include "replication/reading.hpp"
+#include "statistics/summary.hpp"
 
 namespace replication {
+
+using statistics::Moments;
+using statistics::moments;
 
 /// Size of a study and its random streams.
 struct StudyOptions {
@@ -45,13 +49,5 @@ using RunObserver = std::function<void()>;
 
 /// Number of runs that took each number of iterations (Table 4).
 [[nodiscard]] std::map<tmcmc::Index, tmcmc::Index> iteration_counts(const std::vector<Run>& runs);
-
-/// Mean and standard deviation (N - 1; NaN for one value, which has none) in index order.
-struct Moments {
-  double mean = 0.0;                ///< sum over n
-  double standard_deviation = 0.0;  ///< in the unit of the values
-};
-/// \throws errors::InvalidValue if there is no value.
-[[nodiscard]] Moments moments(std::span<const double> values);
 
 }  // namespace replication

@@ -3,35 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "errors/invalid_value.hpp"
-#include "replication/study.hpp"
-#include "tmcmc/random.hpp"
 
 namespace replication {
 
 namespace {
 
-double tail_p(std::int64_t tail, std::size_t draws) {
-  return static_cast<double>(tail + 1) / static_cast<double>(draws + 1);
-}
-
-/// Standard error of a tail share of independent draws.
-double binomial_error(double share, double draws) {
-  return std::sqrt(share * (1.0 - share) / draws);
-}
-
 double monte_carlo_error_95(const PValue& p) {
   return 1.96 * p.standard_error;
-}
-
-/// Median as sample_quantile has it, without sorting all.
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return values.size() % 2 == 1 ? *middle
-                                : *middle - 0.5 * (*middle - *std::max_element(values.begin(), middle));
 }
 
 }  // namespace
@@ -53,125 +33,6 @@ double rounding_half_width(const std::string& printed) {
   double half = 0.0;
   std::from_chars(unit.data(), unit.data() + unit.size(), half);
   return half;
-}
-
-double sample_quantile(std::span<const double> sorted, double p) {
-  const double position = p * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const auto above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-PValue upper_p(std::span<const double> null, double value, double half_width) {
-  const double p =
-      tail_p(std::count_if(null.begin(), null.end(), [=](double x) { return x >= value - half_width; }),
-             null.size());
-  return {p, binomial_error(p, static_cast<double>(null.size() + 1))};
-}
-
-PValue two_sided_p(std::span<const double> null, double value, double half_width) {
-  const double lower =
-      tail_p(std::count_if(null.begin(), null.end(), [=](double x) { return x <= value + half_width; }),
-             null.size());
-  const double tail = std::min(lower, upper_p(null, value, half_width).value);
-  return {std::min(1.0, 2.0 * tail), 2.0 * binomial_error(tail, static_cast<double>(null.size() + 1))};
-}
-
-RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio) {
-  std::sort(sample.begin(), sample.end());
-  if (sample.size() < 2 || !(sample.front() > 0.0) || !(ratio > 0.0)) {
-    throw errors::InvalidValue("sample and ratio", "",
-                               "at least two numbers in the sample, and all positive");
-  }
-  const auto n = static_cast<double>(sample.size());
-  // The share of the other numbers that are at least r times x_i, and of those that x_i is at least r times of.
-  const auto shares = [&](double r) {
-    std::vector<double> of_each;
-    for (const double x : sample) {
-      const auto above = sample.end() - std::lower_bound(sample.begin(), sample.end(), r * x);
-      const auto below = std::upper_bound(sample.begin(), sample.end(), x / r) - sample.begin();
-      of_each.push_back(0.5 * static_cast<double>(above + below) / (n - 1.0));
-    }
-    return moments(of_each);
-  };
-  const double printed = std::max(ratio, 1.0 / ratio);
-  const double pairs = 0.5 * n;  // that are independent; the printed one counts as one more
-  RatioTest result;
-  if (printed == 1.0) {
-    result.p = {1.0, 0.0};
-  } else {
-    const Moments m = shares(printed);
-    const double tail = (m.mean * pairs + 1.0) / (pairs + 1.0);
-    const double error = m.mean > 0.0 ? 2.0 * m.standard_deviation / std::sqrt(n) : tail;
-    result.p = {std::min(1.0, 2.0 * tail), 2.0 * error};
-  }
-  double low = 1.0;
-  double high = sample.back() / sample.front();
-  for (int i = 0; i < 60 && low < high; ++i) {  // the tail share falls as r grows
-    const double middle = 0.5 * (low + high);
-    (shares(middle).mean > 0.025 ? low : high) = middle;
-  }
-  result.interval = {1.0 / high, high};
-  return result;
-}
-
-Interval95 central_95(std::vector<double> null) {
-  std::sort(null.begin(), null.end());
-  return {sample_quantile(null, 0.025), sample_quantile(null, 0.975)};
-}
-
-std::vector<PValue> holm(const std::vector<PValue>& p) {
-  std::vector<std::size_t> order(p.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return p[a].value < p[b].value; });
-  std::vector<PValue> adjusted(p.size());
-  PValue largest{0.0, 0.0};
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto factor = static_cast<double>(p.size() - i);
-    const PValue& own = p[order[i]];
-    if (factor * own.value > largest.value) {
-      largest = {std::min(1.0, factor * own.value), factor * own.standard_error};
-    }
-    adjusted[order[i]] = largest;
-  }
-  return adjusted;
-}
-
-Equivalence median_ratio_equivalence(std::span<const double> first, std::span<const double> second,
-                                     double margin, std::uint64_t seed, int resamples) {
-  const auto check = [](std::span<const double> values) {
-    if (values.empty() || std::any_of(values.begin(), values.end(), [](double x) { return !(x > 0.0); })) {
-      throw errors::InvalidValue("sample", "", "at least one number, and all positive");
-    }
-  };
-  check(first);
-  check(second);
-  std::vector<double> a(first.begin(), first.end());
-  std::vector<double> b(second.begin(), second.end());
-  Equivalence result{};
-  result.margin = margin;
-  result.ratio = median(b) / median(a);
-  std::vector<double> ratios;
-  const auto resample = [&](std::span<const double> source, std::vector<double>& target, std::uint32_t round,
-                            std::uint32_t arm) {
-    for (std::size_t i = 0; i < source.size(); ++i) {
-      const auto words = tmcmc::random_words(
-          {.seed = seed, .arm = arm}, {.purpose = tmcmc::Purpose::statistics, .stage = round, .row = i});
-      const auto pick =
-          static_cast<std::size_t>(tmcmc::uniform_open(words[0]) * static_cast<double>(source.size()));
-      target[i] = source[pick];
-    }
-    return median(target);
-  };
-  for (int round = 0; round < resamples; ++round) {
-    const double below = resample(first, a, static_cast<std::uint32_t>(round), 0);
-    ratios.push_back(resample(second, b, static_cast<std::uint32_t>(round), 1) / below);
-  }
-  result.interval = central_95(std::move(ratios));
-  result.equivalent = result.interval.low >= 1.0 / (1.0 + margin) && result.interval.high <= 1.0 + margin;
-  result.different = result.interval.low > 1.0 || result.interval.high < 1.0;
-  return result;
 }
 
 const std::string& name_of(Verdict verdict) {

@@ -7,68 +7,25 @@
 #include <string>
 #include <vector>
 
+#include "statistics/p_value.hpp"
+
 namespace replication {
+
+using statistics::central_95;
+using statistics::Equivalence;
+using statistics::holm;
+using statistics::Interval95;
+using statistics::median_ratio_equivalence;
+using statistics::PValue;
+using statistics::RatioTest;
+using statistics::sample_quantile;
+using statistics::test_ratio_of_equals;
+using statistics::two_sided_p;
+using statistics::upper_p;
 
 /// Half a unit of the last digit of a number as printed: 0.08151 -> 5e-6, 9 -> 0.5, 1.5e-3 -> 5e-5.
 /// \throws errors::InvalidValue unless the text is a decimal number.
 [[nodiscard]] double rounding_half_width(const std::string& printed);
-
-/// An interval that holds 95 %: of what, its owner says.
-struct Interval95 {
-  double low;   ///< 2.5 % lie below
-  double high;  ///< 2.5 % lie above
-};
-
-/// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan 1996).
-/// \param sorted  ascending, not empty
-/// \param p  in [0, 1]
-[[nodiscard]] double sample_quantile(std::span<const double> sorted, double p);
-
-/// A p-value by simulation, and its Monte Carlo standard error: how much it would vary with another seed.
-struct PValue {
-  double value = 1.0;           ///< in (0, 1]
-  double standard_error = 0.0;  ///< Monte Carlo, of the value
-};
-
-/// Two-sided Monte Carlo p-value of a value against draws from the null: twice the smaller tail, the value itself counted
-/// as one draw (Davison and Hinkley 1997, Section 4.2), at most 1. A draw that rounds to the printed value counts to both
-/// tails. The standard error is binomial, that of independent draws.
-/// \param half_width  rounding of the value, see rounding_half_width
-[[nodiscard]] PValue two_sided_p(std::span<const double> null, double value, double half_width = 0.0);
-
-/// One-sided: the probability of a draw at least as large.
-[[nodiscard]] PValue upper_p(std::span<const double> null, double value, double half_width = 0.0);
-
-/// A ratio of two independent draws from one distribution, in the null distribution that sample gives it.
-struct RatioTest {
-  Interval95 interval{};  ///< central 95 % of the ratios of all ordered pairs
-  PValue p;               ///< two-sided; standard error by Hoeffding's projection of the U-statistic
-};
-
-/// \param sample  at least two positive numbers
-/// \throws errors::InvalidValue for a sample or ratio out of range.
-[[nodiscard]] RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio);
-
-/// Central 95 % interval of the draws.
-[[nodiscard]] Interval95 central_95(std::vector<double> null);
-
-/// Holm's (1979) step-down adjustment of p-values, in the order given; standard errors are multiplied as the values are.
-[[nodiscard]] std::vector<PValue> holm(const std::vector<PValue>& p);
-
-/// Equivalence of two samples of positive numbers by the ratio of their medians.
-struct Equivalence {
-  double ratio;         ///< median(second) / median(first)
-  Interval95 interval;  ///< 95 % bootstrap percentile interval
-  double margin;        ///< 0.10 for 10 %
-  bool equivalent;      ///< the interval lies within [1/(1 + margin), 1 + margin]
-  bool different;       ///< the interval does not hold 1
-};
-
-/// \param seed  of the bootstrap (resamples of each sample, `resamples` times)
-/// \throws errors::InvalidValue for an empty sample or a number that is not positive.
-[[nodiscard]] Equivalence median_ratio_equivalence(std::span<const double> first,
-                                                   std::span<const double> second, double margin,
-                                                   std::uint64_t seed, int resamples = 2000);
 
 /// What the evidence says of a printed number or a claim.
 enum class Verdict {

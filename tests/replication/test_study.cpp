@@ -123,20 +123,6 @@ TEST_CASE("mean and standard deviation of a run are those of its samples", "[stu
   }
 }
 
-TEST_CASE("moments of given values", "[study]") {
-  const std::vector<double> values{1.0, 2.0, 4.0, 9.0};
-  CHECK(replication::moments(values).mean == 4.0);
-  CHECK_THAT(replication::moments(values).standard_deviation, WithinRel(std::sqrt(38.0 / 3.0), rounding));
-  const std::vector<double> one{-3.5};
-  CHECK(replication::moments(one).mean == -3.5);
-  CHECK(std::isnan(replication::moments(one).standard_deviation));
-  const std::vector<double> equal(100, 7.25);
-  CHECK(replication::moments(equal).standard_deviation == 0.0);
-  const std::vector<double> far{1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0};
-  CHECK_THAT(replication::moments(far).standard_deviation, WithinRel(1.0, rounding));
-  CHECK_THROWS_AS(replication::moments({}), errors::InvalidValue);
-}
-
 TEST_CASE("p-box areas of given runs, by hand", "[study]") {
   // First parameter, sorted: 1 2 3 | 2 4 6 | 0 4 5; the ranges of the ranks are 2, 2 and 3.
   // Second parameter: 10 20 30 | 10 20 30 | 10 20 36.

@@ -1,4 +1,4 @@
-#include "replication/deviance_test.hpp"
+#include "statistics/deviance_test.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
-#include "replication/study.hpp"
+#include "statistics/summary.hpp"
 #include "tmcmc/random.hpp"
 
-namespace replication {
+namespace statistics {
 
 namespace {
 
@@ -277,4 +277,4 @@ DevianceTest test_two_tables(const Counts& first, const Counts& second, const st
   return test({first, second}, {replicated}, Against::each_other, draws);
 }
 
-}  // namespace replication
+}  // namespace statistics

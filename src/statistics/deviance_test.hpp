@@ -6,10 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "replication/counts.hpp"
-#include "replication/verdict.hpp"
+#include "statistics/counts.hpp"
+#include "statistics/p_value.hpp"
 
-namespace replication {
+namespace statistics {
 
 /// How the null distribution of a deviance is simulated. The runs of a study are independent, so a table of counts is
 /// multinomial; its probabilities come from all runs of the replicated studies, not from tables of one study each.
@@ -46,4 +46,4 @@ struct DevianceTest {
                                            const std::vector<Counts>& replicated,
                                            const TableDraws& draws = {});
 
-}  // namespace replication
+}  // namespace statistics

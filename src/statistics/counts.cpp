@@ -1,11 +1,11 @@
-#include "replication/counts.hpp"
+#include "statistics/counts.hpp"
 
 #include <numeric>
 
 #include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
 
-namespace replication {
+namespace statistics {
 
 namespace {
 
@@ -64,4 +64,4 @@ double log_multinomial(const Counts& counts, const std::map<std::int64_t, double
   return sum;
 }
 
-}  // namespace replication
+}  // namespace statistics

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-namespace replication {
+namespace statistics {
 
 /// Number of runs by category.
 using Counts = std::map<std::int64_t, std::int64_t>;
@@ -24,4 +24,4 @@ using Counts = std::map<std::int64_t, std::int64_t>;
 [[nodiscard]] double log_multinomial(const Counts& counts,
                                      const std::map<std::int64_t, double>& probabilities);
 
-}  // namespace replication
+}  // namespace statistics

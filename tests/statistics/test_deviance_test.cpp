@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "errors/invalid_value.hpp"
-#include "replication/deviance_test.hpp"
-#include "replication/study.hpp"
+#include "statistics/deviance_test.hpp"
+#include "statistics/summary.hpp"
 #include "tmcmc/random.hpp"
 
-using namespace replication;
+using namespace statistics;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 

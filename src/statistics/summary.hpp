@@ -1,0 +1,35 @@
+/// \file
+/// Moments and quantiles of a sample.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace statistics {
+
+/// Mean and standard deviation (N - 1; NaN for one value, which has none) in index order.
+struct Moments {
+  double mean = 0.0;                ///< sum over n
+  double standard_deviation = 0.0;  ///< in the unit of the values
+};
+/// \throws errors::InvalidValue if there is no value.
+[[nodiscard]] Moments moments(std::span<const double> values);
+
+/// Square root of the mean of the squares, summed in index order; 0 without a value.
+[[nodiscard]] double root_mean_square(std::span<const double> values);
+
+/// An interval that holds 95 %: of what, its owner says.
+struct Interval95 {
+  double low;   ///< 2.5 % lie below
+  double high;  ///< 2.5 % lie above
+};
+
+/// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan 1996).
+/// \param sorted  ascending, not empty
+/// \param p  in [0, 1]
+[[nodiscard]] double sample_quantile(std::span<const double> sorted, double p);
+
+/// Central 95 % interval of the draws.
+[[nodiscard]] Interval95 central_95(std::vector<double> null);
+
+}  // namespace statistics

@@ -1,0 +1,35 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "errors/invalid_value.hpp"
+#include "statistics/summary.hpp"
+
+using namespace statistics;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double rounding = 1e-12;
+
+}  // namespace
+
+TEST_CASE("moments of given values", "[summary]") {
+  const std::vector<double> values{1.0, 2.0, 4.0, 9.0};
+  CHECK(moments(values).mean == 4.0);
+  CHECK_THAT(moments(values).standard_deviation, WithinRel(std::sqrt(38.0 / 3.0), rounding));
+  const std::vector<double> one{-3.5};
+  CHECK(moments(one).mean == -3.5);
+  CHECK(std::isnan(moments(one).standard_deviation));
+  const std::vector<double> equal(100, 7.25);
+  CHECK(moments(equal).standard_deviation == 0.0);
+  const std::vector<double> far{1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0};
+  CHECK_THAT(moments(far).standard_deviation, WithinRel(1.0, rounding));
+  CHECK_THROWS_AS(moments({}), errors::InvalidValue);
+}
+
+TEST_CASE("the root mean square of given values", "[summary]") {
+  const std::vector<double> values{3.0, -4.0, 0.0, 5.0};
+  CHECK_THAT(root_mean_square(values), WithinRel(std::sqrt(12.5), rounding));
+  CHECK(root_mean_square({}) == 0.0);
+}
