@@ -13,6 +13,8 @@
 
 namespace tmcmc {
 
+using detail::to_unbounded;
+
 namespace {
 
 /// Stages of Purpose::reference: the rounds of a pass and the attempts of the joint fit count from 0.

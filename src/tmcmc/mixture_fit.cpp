@@ -7,9 +7,13 @@
 
 #include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
-#include "tmcmc/proposal.hpp"
+#include "tmcmc/detail/proposal_covariance.hpp"
 
 namespace tmcmc {
+
+using detail::cholesky_factor;
+using detail::proposal_covariance;
+using detail::weighted_mean;
 
 namespace {
 

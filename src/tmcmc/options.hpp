@@ -4,10 +4,9 @@
 
 #include <limits>
 
-#include "tmcmc/proposal.hpp"
-#include "tmcmc/proposals.hpp"
+#include "tmcmc/proposal_options.hpp"
 #include "tmcmc/resampling.hpp"
-#include "tmcmc/transition.hpp"
+#include "tmcmc/tempering_step.hpp"
 
 namespace tmcmc {
 
@@ -57,8 +56,8 @@ struct Options {
   Centre centre = Centre::weighted_mean;           ///< m of Eq. 5
   Coordinates coordinates = Coordinates::natural;  ///< of the proposals
   bool random_subsets =
-      false;  ///< a proposal changes a random set of (whitened) coordinates: MetropolisKernel
-  double independent_fraction = 0.0;  ///< share of independent proposals: MetropolisKernel
+      false;  ///< a proposal changes a random set of (whitened) coordinates: detail::MetropolisKernel
+  double independent_fraction = 0.0;  ///< share of independent proposals: detail::MetropolisKernel
   /// Each half of the chains (by the parity of their chain before the resampling) gets a kernel that was fitted to the
   /// other half, so that no chain is moved by proposals that it has shaped itself. In many dimensions (20 and more) that
   /// takes away most of the bias of the log-evidence; in few it costs a little precision. Not for growing chains.

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/log_weights.hpp"
-#include "tmcmc/moves.hpp"
 #include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
+
+using detail::require_valid;
+using detail::to_unbounded;
 
 namespace {
 

@@ -7,11 +7,13 @@
 #include <utility>
 
 #include "portable_math/elementary.hpp"
+#include "tmcmc/detail/proposal_fit.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/parallel.hpp"
-#include "tmcmc/stage_kernels.hpp"
 
 namespace tmcmc {
+
+using namespace detail;
 
 namespace {
 
@@ -82,8 +84,8 @@ bool fits_budget(const Options& options, const State& from, double next) {
 }
 
 /// Temperature after a step, rounded as the stage has it.
-double temperature_after(const State& from, const Transition& transition) {
-  return transition.status == TransitionStatus::final_step ? 1.0 : from.beta + transition.step;
+double temperature_after(const State& from, const TemperingStep& transition) {
+  return transition.status == TemperingStatus::final_step ? 1.0 : from.beta + transition.step;
 }
 
 /// ScaleRule::acceptance_linked; without a random walk in the stage the scale stays.
@@ -171,7 +173,7 @@ State initial_state(const Problem& problem, const Options& options, const Stream
 }
 
 StageRecord advance(const Problem& problem, const Options& options, const StreamKey& key,
-                    const Transition& transition, const State& from, State& to, Workspace& work) {
+                    const TemperingStep& transition, const State& from, State& to, Workspace& work) {
   const Index n = from.points.rows();
   StageRecord record;
   record.stage = from.stage + 1;
@@ -236,15 +238,15 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
       result.stop = StopReason::stage_limit;
       break;
     }
-    const Transition transition = rule(state);
-    if (transition.status == TransitionStatus::unreachable ||
-        transition.status == TransitionStatus::infeasible) {
+    const TemperingStep transition = rule(state);
+    if (transition.status == TemperingStatus::unreachable ||
+        transition.status == TemperingStatus::infeasible) {
       throw SamplingError("stage " + std::to_string(state.stage + 1) +
                           ": no tempering step meets the criterion, since " +
                           std::to_string(count_feasible(as_span(state.log_likelihood))) + " of " +
                           std::to_string(options.samples) + " samples are feasible (see Criterion::counted)");
     }
-    if (transition.status != TransitionStatus::final_step && transition.step < options.minimum_step) {
+    if (transition.status != TemperingStatus::final_step && transition.step < options.minimum_step) {
       result.stop = StopReason::step_too_small;
       break;
     }
@@ -299,9 +301,9 @@ StepRule fixed_schedule(std::vector<double> betas) {
   }
   return [betas = std::move(betas)](const State& state) {
     const double next = *std::upper_bound(betas.begin(), betas.end(), state.beta);
-    Transition transition;
+    TemperingStep transition;
     transition.step = next - state.beta;
-    transition.status = next == 1.0 ? TransitionStatus::final_step : TransitionStatus::solved;
+    transition.status = next == 1.0 ? TemperingStatus::final_step : TemperingStatus::solved;
     transition.effective_sample_size = effective_sample_size(as_span(state.log_likelihood), transition.step);
     transition.coefficient_of_variation =
         coefficient_of_variation(as_span(state.log_likelihood), transition.step);

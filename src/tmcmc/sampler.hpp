@@ -6,10 +6,11 @@
 #include <functional>
 #include <vector>
 
+#include "tmcmc/detail/population_move.hpp"
+#include "tmcmc/detail/resample.hpp"
 #include "tmcmc/options.hpp"
 #include "tmcmc/progress.hpp"
 #include "tmcmc/result.hpp"
-#include "tmcmc/stage_moves.hpp"
 
 namespace tmcmc {
 
@@ -24,19 +25,19 @@ struct Workspace {
   /// The problem stays referred to.
   Workspace(const Problem& problem, const Options& options, const StreamKey& key);
 
-  Mover mover;                     ///< work space of the Metropolis steps
-  std::vector<double> weights;     ///< of the rows of the population, relative to the largest
-  std::vector<double> by_chain;    ///< the weights in the order of the chains
-  std::vector<Index> ancestors;    ///< row that each chain starts from
-  ResamplingWorkspace resampling;  ///< work space of resample()
-  StageMoveWorkspace moves;        ///< work space of move_population()
+  detail::Mover mover;                     ///< work space of the Metropolis steps
+  std::vector<double> weights;             ///< of the rows of the population, relative to the largest
+  std::vector<double> by_chain;            ///< the weights in the order of the chains
+  std::vector<Index> ancestors;            ///< row that each chain starts from
+  detail::ResamplingWorkspace resampling;  ///< work space of resample()
+  detail::StageMoveWorkspace moves;        ///< work space of move_population()
 };
 
 /// Called with the draws from the prior, when progress.stages is empty, and after each stage.
 using Observer = std::function<void(const Progress& progress)>;
 
 /// Chooses the step from a population with beta < 1.
-using StepRule = std::function<Transition(const State&)>;
+using StepRule = std::function<TemperingStep(const State&)>;
 
 /// Draws from the prior and evaluates them: beta = 0.
 /// \throws SamplingError for a log-likelihood of NaN or plus infinity; InfeasiblePriorError if no draw is
@@ -46,7 +47,7 @@ using StepRule = std::function<Transition(const State&)>;
 /// One stage: weights of the step, covariance, resampling and moves. `to` is overwritten; its memory is
 /// reused.
 StageRecord advance(const Problem& problem, const Options& options, const StreamKey& key,
-                    const Transition& transition, const State& from, State& to, Workspace& work);
+                    const TemperingStep& transition, const State& from, State& to, Workspace& work);
 
 /// The sampler: options.criterion chooses the steps.
 /// \throws std::invalid_argument for invalid options; SamplingError if a criterion cannot be met or the likelihood

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tmcmc/moves.hpp"
+#include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/problems.hpp"
 
 namespace chains {
@@ -22,19 +22,19 @@ inline std::vector<double> column(const tmcmc::Population& points, tmcmc::Index 
 struct Chains {
   tmcmc::LogLikelihood log_likelihood;
   tmcmc::BoxPrior prior;
-  tmcmc::MetropolisKernel kernel;
+  tmcmc::detail::MetropolisKernel kernel;
   tmcmc::Population points;
   Eigen::VectorXd values{};
   std::uint64_t seed = 1;
   int threads = 1;
   tmcmc::Index batch_rows = 0;
 
-  tmcmc::MoveCounts move(std::uint32_t steps, std::span<const tmcmc::Index> rows = {},
-                         std::uint32_t first_draw = 0) {
+  tmcmc::detail::MoveCounts move(std::uint32_t steps, std::span<const tmcmc::Index> rows = {},
+                                 std::uint32_t first_draw = 0) {
     values.resize(points.rows());
     log_likelihood(points, values);
-    tmcmc::Mover mover(log_likelihood, prior, {.seed = seed}, threads, batch_rows);
-    tmcmc::MoveCounts counts;
+    tmcmc::detail::Mover mover(log_likelihood, prior, {.seed = seed}, threads, batch_rows);
+    tmcmc::detail::MoveCounts counts;
     for (std::uint32_t k = 0; k < steps; ++k) {
       counts += mover.step(kernel, rows, first_draw + k, points, values);
     }

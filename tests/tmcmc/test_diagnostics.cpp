@@ -258,12 +258,12 @@ TEST_CASE("the drift along the chains is the t value of last third minus first t
       5, 6, 10,       //
       5, 6, 10;
   // Mean 6, standard deviation sqrt(7), standard error sqrt(7 / 3).
-  CHECK(tmcmc::equilibrium_t(values, 3) == Approx(6.0 / std::sqrt(7.0 / 3.0)).epsilon(1e-14));
-  CHECK(tmcmc::equilibrium_t(-values, 3) == Approx(-6.0 / std::sqrt(7.0 / 3.0)).epsilon(1e-14));
-  CHECK(tmcmc::equilibrium_t(Eigen::VectorXd::Constant(18, 3.0), 3) == 0.0);
-  CHECK(tmcmc::equilibrium_t(values.head(3), 3) == 0.0);                        // one state a chain
-  CHECK(tmcmc::equilibrium_t(values, 2) == 0.0);                                // two chains
-  CHECK(tmcmc::equilibrium_t(values.head(6), 3) == Approx(0.0).margin(1e-14));  // +2, 0, -2
+  CHECK(tmcmc::detail::equilibrium_t(values, 3) == Approx(6.0 / std::sqrt(7.0 / 3.0)).epsilon(1e-14));
+  CHECK(tmcmc::detail::equilibrium_t(-values, 3) == Approx(-6.0 / std::sqrt(7.0 / 3.0)).epsilon(1e-14));
+  CHECK(tmcmc::detail::equilibrium_t(Eigen::VectorXd::Constant(18, 3.0), 3) == 0.0);
+  CHECK(tmcmc::detail::equilibrium_t(values.head(3), 3) == 0.0);                        // one state a chain
+  CHECK(tmcmc::detail::equilibrium_t(values, 2) == 0.0);                                // two chains
+  CHECK(tmcmc::detail::equilibrium_t(values.head(6), 3) == Approx(0.0).margin(1e-14));  // +2, 0, -2
 }
 
 TEST_CASE("few healthy runs, and nearly all that outran their chains, are said not to be in equilibrium",

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "tmcmc/detail/proposal_covariance.hpp"
 #include "tmcmc/prior.hpp"
-#include "tmcmc/proposal.hpp"
 #include "tmcmc/statistics.hpp"
 
 namespace {
@@ -15,10 +15,10 @@ namespace {
 using Catch::Matchers::Contains;
 using tmcmc::BoxPrior;
 using tmcmc::Centre;
-using tmcmc::cholesky_factor;
 using tmcmc::Index;
 using tmcmc::Population;
-using tmcmc::proposal_covariance;
+using tmcmc::detail::cholesky_factor;
+using tmcmc::detail::proposal_covariance;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();

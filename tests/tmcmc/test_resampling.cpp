@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "tmcmc/resampling.hpp"
+#include "tmcmc/detail/resample.hpp"
 #include "tmcmc/statistics.hpp"
 
 namespace {
@@ -125,7 +125,7 @@ TEST_CASE("the number of ancestors need not be that of the weights", "[tmcmc][re
 TEST_CASE("the ancestors depend on seed and stage, not on the work space", "[tmcmc][resampling]") {
   std::vector<double> weights(100, 1.0);
   weights[3] = 2.5;
-  tmcmc::ResamplingWorkspace work;
+  tmcmc::detail::ResamplingWorkspace work;
   for (const Resampling scheme : schemes) {
     CAPTURE(static_cast<int>(scheme));
     const auto ancestors = ancestors_of(weights, 90, 1, 1, scheme);
@@ -136,7 +136,7 @@ TEST_CASE("the ancestors depend on seed and stage, not on the work space", "[tmc
     work.residuals.assign(200, -1.0);
     work.drawn.assign(500, 1);
     std::vector<Index> again(90);
-    tmcmc::resample(scheme, weights, {.seed = 1}, 1, again, work);
+    tmcmc::detail::resample(scheme, weights, {.seed = 1}, 1, again, work);
     CHECK(again == ancestors);
   }
 }

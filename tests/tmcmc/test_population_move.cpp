@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "tmcmc/chains.hpp"
+#include "tmcmc/detail/population_move.hpp"
 #include "tmcmc/replicates.hpp"
-#include "tmcmc/stage_moves.hpp"
 
 namespace {
 
@@ -17,18 +17,18 @@ using problems::by_rows;
 using replicates::gamma_normal;
 using statistics::standard_errors;
 using tmcmc::Index;
-using tmcmc::MetropolisKernel;
 using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Population;
 using tmcmc::Problem;
 using tmcmc::Result;
 using tmcmc::ScaleRule;
-using tmcmc::StageKernels;
-using tmcmc::StageMoves;
 using tmcmc::StageRecord;
 using tmcmc::State;
 using tmcmc::Walkers;
+using tmcmc::detail::MetropolisKernel;
+using tmcmc::detail::StageKernels;
+using tmcmc::detail::StageMoves;
 
 /// Moves `count` walkers, all at 0, under a standard normal target.
 struct Stage {
@@ -50,9 +50,9 @@ struct Stage {
   }
 
   StageMoves move(const Options& options, Index steps, Index most_steps) {
-    tmcmc::Mover mover(log_likelihood, prior, {.seed = 51}, 1, 0);
-    tmcmc::StageMoveWorkspace work;
-    return tmcmc::move_population(options, kernels, {}, steps, most_steps, walkers, mover, work);
+    tmcmc::detail::Mover mover(log_likelihood, prior, {.seed = 51}, 1, 0);
+    tmcmc::detail::StageMoveWorkspace work;
+    return tmcmc::detail::move_population(options, kernels, {}, steps, most_steps, walkers, mover, work);
   }
 };
 
@@ -62,7 +62,7 @@ Options with(MoveKind move) {
   return options;
 }
 
-double rate(const tmcmc::MoveCounts& counts) {
+double rate(const tmcmc::detail::MoveCounts& counts) {
   return static_cast<double>(counts.accepted) / static_cast<double>(counts.proposals);
 }
 
@@ -98,10 +98,10 @@ TEST_CASE("a stage of resample-move ends when its chains have mixed, within its 
   const Index steps = slow.move(options, 3, 1000).steps;
   CHECK(steps > 10);
   CHECK(steps < 100);
-  CHECK(tmcmc::largest_correlation(starts, slow.walkers.points) <= 0.3);
+  CHECK(tmcmc::detail::largest_correlation(starts, slow.walkers.points) <= 0.3);
   Stage shorter(2000, 0.3);  // one step less was not enough
   CHECK(shorter.move(options, steps - 1, steps - 1).steps == steps - 1);
-  CHECK(tmcmc::largest_correlation(starts, shorter.walkers.points) > 0.3);
+  CHECK(tmcmc::detail::largest_correlation(starts, shorter.walkers.points) > 0.3);
   CHECK(Stage(2000, 0.3).move(options, 3, steps - 1).steps == steps - 1);
   CHECK(Stage(2000, 0.3).move(options, steps + 5, 1000).steps == steps + 5);
   options.mixing_correlation = 0.99;
@@ -113,9 +113,10 @@ TEST_CASE("the largest correlation between two populations", "[tmcmc][stage_move
   a << 1.0, 5.0, 2.0, 2.0, 5.0, -2.0, 3.0, 5.0, 2.0, 4.0, 5.0, -2.0;
   Population b(4, 3);
   b << -2.0, 1.0, 1.0, -4.0, 2.0, 1.0, -6.0, 3.0, -1.0, -8.0, 4.0, -1.0;
-  CHECK_THAT(tmcmc::largest_correlation(a, b), WithinRel(1.0, 1e-14));  // of sign -, and a constant column
-  CHECK_THAT(tmcmc::largest_correlation(a.rightCols(1), b.rightCols(1)), WithinAbs(0.0, 1e-14));
-  CHECK(tmcmc::largest_correlation(a.middleCols(1, 1), b.middleCols(1, 1)) == 0.0);
+  CHECK_THAT(tmcmc::detail::largest_correlation(a, b),
+             WithinRel(1.0, 1e-14));  // of sign -, and a constant column
+  CHECK_THAT(tmcmc::detail::largest_correlation(a.rightCols(1), b.rightCols(1)), WithinAbs(0.0, 1e-14));
+  CHECK(tmcmc::detail::largest_correlation(a.middleCols(1, 1), b.middleCols(1, 1)) == 0.0);
 }
 
 TEST_CASE("the scale adapts until its random walks are accepted at the target rate", "[tmcmc][stage_moves]") {

@@ -1,4 +1,4 @@
-#include "tmcmc/moves.hpp"
+#include "tmcmc/detail/metropolis_step.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include "tmcmc/parallel.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
   proposals += other.proposals;
@@ -194,4 +194,4 @@ void require_valid(const Eigen::Ref<const Eigen::MatrixXd>& points,
   }
 }
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

@@ -1,4 +1,4 @@
-#include "tmcmc/stage_moves.hpp"
+#include "tmcmc/detail/population_move.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "portable_math/sums.hpp"
 #include "tmcmc/parallel.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 namespace {
 
@@ -116,23 +116,6 @@ StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index 
 
 }  // namespace
 
-void Walkers::gather(const Population& from_points, const Eigen::VectorXd& from_log_likelihood,
-                     std::span<const Index> rows, int threads) {
-  const auto n = static_cast<Index>(rows.size());
-  points.resize(n, from_points.cols());
-  log_likelihood.resize(n);
-  for_each_block(n, reduction_rows, threads, [&](Index, Index begin, Index end) {
-    for (Index j = 0; j < from_points.cols(); ++j) {
-      for (Index i = begin; i < end; ++i) {
-        points(i, j) = from_points(rows[static_cast<std::size_t>(i)], j);
-      }
-    }
-    for (Index i = begin; i < end; ++i) {
-      log_likelihood[i] = from_log_likelihood[rows[static_cast<std::size_t>(i)]];
-    }
-  });
-}
-
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
                            Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work) {
@@ -191,4 +174,4 @@ double largest_correlation(const Population& a, const Population& b) {
   return largest;
 }
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

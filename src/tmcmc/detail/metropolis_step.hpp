@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "tmcmc/proposals.hpp"
+#include "tmcmc/detail/metropolis_proposal.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 /// What Metropolis steps did, summed over rows and steps.
 struct MoveCounts {
@@ -59,4 +59,4 @@ class Mover {
 void require_valid(const Eigen::Ref<const Eigen::MatrixXd>& points,
                    const Eigen::Ref<const Eigen::VectorXd>& log_likelihood);
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

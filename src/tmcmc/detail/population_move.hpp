@@ -4,11 +4,11 @@
 
 #include <vector>
 
-#include "tmcmc/moves.hpp"
+#include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/options.hpp"
 #include "tmcmc/result.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 /// Memory of move_population(), to be reused from stage to stage.
 struct StageMoveWorkspace {
@@ -47,4 +47,4 @@ StageMoves move_population(const Options& options, StageKernels& kernels, std::s
 /// \param log_likelihood  state k of chain c at entry k * chains + c
 [[nodiscard]] double equilibrium_t(const Eigen::VectorXd& log_likelihood, Index chains);
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

@@ -8,7 +8,7 @@
 
 #include "tmcmc/parallel.hpp"
 #include "tmcmc/statistics.hpp"
-#include "tmcmc/transition.hpp"
+#include "tmcmc/tempering_step.hpp"
 
 namespace {
 
@@ -19,8 +19,8 @@ using tmcmc::Counted;
 using tmcmc::Criterion;
 using tmcmc::CriterionKind;
 using tmcmc::Deviation;
-using tmcmc::Transition;
-using tmcmc::TransitionStatus;
+using tmcmc::TemperingStatus;
+using tmcmc::TemperingStep;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double criterion_tolerance = 1e-10;  // of N_eff / N and of CoV, relative
@@ -59,8 +59,8 @@ Criterion ess_rule(double fraction, Counted counted = Counted::feasible) {
   return {CriterionKind::effective_sample_size, fraction, Deviation::population, counted};
 }
 
-void check_solved(const Transition& t) {
-  CHECK(t.status == TransitionStatus::solved);
+void check_solved(const TemperingStep& t) {
+  CHECK(t.status == TemperingStatus::solved);
   CHECK(t.bracket_low <= t.step);
   CHECK(t.step <= t.bracket_high);
   CHECK(t.bracket_high - t.bracket_low <= step_tolerance * t.step);
@@ -82,14 +82,14 @@ TEST_CASE("the chosen step meets its criterion, at every scale of the log-likeli
         const double samples = static_cast<double>(n);
         for (const double fraction : {0.3, 0.5, 0.9}) {
           CAPTURE(fraction);
-          const Transition t = choose_step(l, 1.0, ess_rule(fraction));
+          const TemperingStep t = choose_step(l, 1.0, ess_rule(fraction));
           check_solved(t);
           CHECK_THAT(tmcmc::effective_sample_size(l, t.step),
                      WithinRel(fraction * samples, criterion_tolerance));
           CHECK(t.effective_sample_size == tmcmc::effective_sample_size(l, t.step));
         }
         for (const Deviation deviation : {Deviation::population, Deviation::sample}) {
-          const Transition t = choose_step(l, 1.0, cov_rule(1.0, deviation));
+          const TemperingStep t = choose_step(l, 1.0, cov_rule(1.0, deviation));
           check_solved(t);
           CHECK_THAT(tmcmc::coefficient_of_variation(l, t.step, deviation),
                      WithinRel(1.0, criterion_tolerance));
@@ -111,7 +111,7 @@ TEST_CASE("CoV = 1 and N_eff = N/2 choose the same step", "[tmcmc][transition]")
         const double step = choose_step(l, 1.0, cov_rule(1.0)).step;
         CHECK_THAT(choose_step(l, 1.0, ess_rule(0.5)).step, WithinRel(step, step_tolerance));
         // With N - 1 it is N_eff = N / (2 - 1/N), a larger one and a smaller step.
-        const Transition sample = choose_step(l, 1.0, cov_rule(1.0, Deviation::sample));
+        const TemperingStep sample = choose_step(l, 1.0, cov_rule(1.0, Deviation::sample));
         CHECK_THAT(
             sample.effective_sample_size,
             WithinRel(static_cast<double>(n) / (2.0 - 1.0 / static_cast<double>(n)), criterion_tolerance));
@@ -154,13 +154,13 @@ TEST_CASE("the remaining step is taken whole if it keeps the criterion", "[tmcmc
   const Values l = skewed(300, 10.0, 4);
   const double root = choose_step(l, 1.0, cov_rule(1.0)).step;
   for (const Criterion& rule : {cov_rule(1.0), ess_rule(0.5)}) {
-    const Transition before = choose_step(l, 0.999 * root, rule);
-    CHECK(before.status == TransitionStatus::final_step);
+    const TemperingStep before = choose_step(l, 0.999 * root, rule);
+    CHECK(before.status == TemperingStatus::final_step);
     CHECK(before.step == 0.999 * root);
     CHECK(before.effective_sample_size > 150.0);
     CHECK(before.coefficient_of_variation < 1.0);
-    const Transition beyond = choose_step(l, 1.001 * root, rule);
-    CHECK(beyond.status == TransitionStatus::solved);
+    const TemperingStep beyond = choose_step(l, 1.001 * root, rule);
+    CHECK(beyond.status == TemperingStatus::solved);
     CHECK_THAT(beyond.step, WithinRel(root, step_tolerance));
   }
 }
@@ -170,7 +170,7 @@ TEST_CASE("a step that solves a remainder is the same for every remainder", "[tm
   const double root = choose_step(l, 1.0, ess_rule(0.5)).step;
   for (const double remaining : {0.7, 1e-3, 1e-6}) {
     CAPTURE(remaining);
-    const Transition t = choose_step(l, remaining, ess_rule(0.5));
+    const TemperingStep t = choose_step(l, remaining, ess_rule(0.5));
     check_solved(t);
     CHECK_THAT(t.step, WithinRel(root, step_tolerance));
   }
@@ -180,8 +180,8 @@ TEST_CASE("equal log-likelihoods end at once, under every rule", "[tmcmc][transi
   for (const double level : {0.0, -5.5, 1e300, -1e300}) {
     for (const Criterion& rule :
          {cov_rule(1.0), cov_rule(1.0, Deviation::sample), ess_rule(0.5), ess_rule(1.0)}) {
-      const Transition t = choose_step(Values(20, level), 0.6, rule);
-      CHECK(t.status == TransitionStatus::final_step);
+      const TemperingStep t = choose_step(Values(20, level), 0.6, rule);
+      CHECK(t.status == TemperingStatus::final_step);
       CHECK(t.step == 0.6);
       CHECK(t.effective_sample_size == 20.0);
       CHECK(t.coefficient_of_variation == 0.0);
@@ -193,15 +193,15 @@ TEST_CASE("one feasible sample ends at once if feasible ones are counted", "[tmc
   Values l(20, -infinity);
   l[19] = -3.0;
   for (const Criterion& rule : {cov_rule(1.0), cov_rule(1.0, Deviation::sample), ess_rule(0.5)}) {
-    const Transition t = choose_step(l, 1.0, rule);
-    CHECK(t.status == TransitionStatus::final_step);
+    const TemperingStep t = choose_step(l, 1.0, rule);
+    CHECK(t.status == TemperingStatus::final_step);
     CHECK(t.effective_sample_size == 1.0);
   }
   for (const Criterion& rule :
        {cov_rule(1.0, Deviation::population, Counted::all), cov_rule(1.0, Deviation::sample, Counted::all),
         ess_rule(0.5, Counted::all)}) {
-    const Transition t = choose_step(l, 1.0, rule);
-    CHECK(t.status == TransitionStatus::unreachable);
+    const TemperingStep t = choose_step(l, 1.0, rule);
+    CHECK(t.status == TemperingStatus::unreachable);
     CHECK(t.step == 0.0);
     CHECK(t.effective_sample_size == 0.0);
   }
@@ -210,25 +210,25 @@ TEST_CASE("one feasible sample ends at once if feasible ones are counted", "[tmc
 TEST_CASE("no feasible sample is reported as such", "[tmcmc][transition]") {
   for (const Counted counted : {Counted::all, Counted::feasible}) {
     for (const Criterion& rule : {cov_rule(1.0, Deviation::population, counted), ess_rule(0.5, counted)}) {
-      const Transition t = choose_step(Values(20, -infinity), 1.0, rule);
-      CHECK(t.status == TransitionStatus::infeasible);
+      const TemperingStep t = choose_step(Values(20, -infinity), 1.0, rule);
+      CHECK(t.status == TemperingStatus::infeasible);
       CHECK(t.step == 0.0);
     }
   }
 }
 
 TEST_CASE("N_eff = N allows a step of zero alone", "[tmcmc][transition]") {
-  const Transition t = choose_step(skewed(50, 1.0, 6), 1.0, ess_rule(1.0));
-  CHECK(t.status == TransitionStatus::zero_step);
+  const TemperingStep t = choose_step(skewed(50, 1.0, 6), 1.0, ess_rule(1.0));
+  CHECK(t.status == TemperingStatus::zero_step);
   CHECK(t.step == 0.0);
 }
 
 TEST_CASE("a target next to N is met where N_eff rounds to more than N on the way", "[tmcmc][transition]") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Values values = skewed(30, 1000.0, seed);
-    const Transition t = choose_step(values, 1.0, tmcmc::effective_sample_size_rule(1.0 - 1e-12));
+    const TemperingStep t = choose_step(values, 1.0, tmcmc::effective_sample_size_rule(1.0 - 1e-12));
     INFO("seed " << seed);
-    CHECK(t.status == TransitionStatus::solved);
+    CHECK(t.status == TemperingStatus::solved);
     CHECK(t.effective_sample_size / 30.0 <= 1.0 + 1e-15);
     CHECK_THAT(t.coefficient_of_variation, WithinRel(1e-6, 1e-3));
   }
@@ -240,16 +240,16 @@ TEST_CASE("a step below 1e-300 counts as zero, whatever the rule", "[tmcmc][tran
   for (const Criterion& rule :
        {ess_rule(0.5, Counted::all), cov_rule(1.0, Deviation::population, Counted::all),
         cov_rule(1.0, Deviation::sample, Counted::feasible)}) {
-    CHECK(choose_step(l, 1.0, rule).status == TransitionStatus::zero_step);
+    CHECK(choose_step(l, 1.0, rule).status == TemperingStatus::zero_step);
   }
   std::fill(l.begin() + 10, l.begin() + 60,
             -infinity);  // half of the samples are feasible: N_eff = N/2 in the limit
-  CHECK(choose_step(l, 1.0, ess_rule(0.45, Counted::all)).status == TransitionStatus::zero_step);
-  CHECK(choose_step(l, 1.0, ess_rule(0.55, Counted::all)).status == TransitionStatus::unreachable);
+  CHECK(choose_step(l, 1.0, ess_rule(0.45, Counted::all)).status == TemperingStatus::zero_step);
+  CHECK(choose_step(l, 1.0, ess_rule(0.55, Counted::all)).status == TemperingStatus::unreachable);
   CHECK(choose_step(l, 1.0, cov_rule(1.1, Deviation::sample, Counted::all)).status ==
-        TransitionStatus::zero_step);
+        TemperingStatus::zero_step);
   CHECK(choose_step(l, 1.0, cov_rule(0.95, Deviation::sample, Counted::all)).status ==
-        TransitionStatus::unreachable);
+        TemperingStatus::unreachable);
 }
 
 TEST_CASE("counting all, too few feasible samples make the criterion unreachable", "[tmcmc][transition]") {
@@ -257,12 +257,12 @@ TEST_CASE("counting all, too few feasible samples make the criterion unreachable
   std::fill(l.begin(), l.begin() + 60, -infinity);  // N_eff is at most 40
   for (const Criterion& rule :
        {ess_rule(0.5, Counted::all), cov_rule(1.0, Deviation::population, Counted::all)}) {
-    const Transition t = choose_step(l, 1.0, rule);
-    CHECK(t.status == TransitionStatus::unreachable);
+    const TemperingStep t = choose_step(l, 1.0, rule);
+    CHECK(t.status == TemperingStatus::unreachable);
     CHECK(t.step == 0.0);
     CHECK(t.evaluations < 100);
   }
-  const Transition reachable = choose_step(l, 1.0, ess_rule(0.3, Counted::all));
+  const TemperingStep reachable = choose_step(l, 1.0, ess_rule(0.3, Counted::all));
   check_solved(reachable);
   CHECK_THAT(reachable.effective_sample_size, WithinRel(30.0, criterion_tolerance));
 }
@@ -272,7 +272,7 @@ TEST_CASE("counting the feasible ones, the step is that of the feasible ones alo
   Values l = feasible;
   l.insert(l.end(), 900, -infinity);
   for (const Criterion& rule : {ess_rule(0.5), cov_rule(1.0), cov_rule(1.0, Deviation::sample)}) {
-    const Transition t = choose_step(l, 1.0, rule);
+    const TemperingStep t = choose_step(l, 1.0, rule);
     check_solved(t);
     CHECK_THAT(t.step, WithinRel(choose_step(feasible, 1.0, rule).step, step_tolerance));
   }
@@ -283,7 +283,7 @@ TEST_CASE("log-likelihoods with a penalty of -1e10: the first steps remove the p
           "[tmcmc][transition]") {
   Values l = symmetric(1000, 1.0, 9);
   std::fill(l.begin(), l.begin() + 846, -1e10);
-  const Transition t = choose_step(l, 1.0, cov_rule(1.0, Deviation::sample, Counted::all));
+  const TemperingStep t = choose_step(l, 1.0, cov_rule(1.0, Deviation::sample, Counted::all));
   check_solved(t);
   CHECK_THAT(t.coefficient_of_variation, WithinRel(1.0, criterion_tolerance));
   CHECK(t.step > 1e-10);
@@ -297,12 +297,12 @@ TEST_CASE("steps are resolved down to 1e-300", "[tmcmc][transition]") {
     for (const double level : {1e299, 1e300}) {
       Values l(12, -level);
       std::fill_n(l.begin(), 3, level);
-      const Transition t = choose_step(l, 1.0, rule);
+      const TemperingStep t = choose_step(l, 1.0, rule);
       if (scaled_step / (2.0 * level) > 1e-300) {
-        CHECK(t.status == TransitionStatus::solved);
+        CHECK(t.status == TemperingStatus::solved);
         CHECK_THAT(t.step, WithinRel(scaled_step / (2.0 * level), step_tolerance));
       } else {
-        CHECK(t.status == TransitionStatus::zero_step);
+        CHECK(t.status == TemperingStatus::zero_step);
         CHECK(t.step == 0.0);
       }
     }
@@ -312,15 +312,15 @@ TEST_CASE("steps are resolved down to 1e-300", "[tmcmc][transition]") {
 TEST_CASE("two samples never exceed CoV = 1", "[tmcmc][transition]") {
   const Values l{0.0, -1e6};
   for (const Criterion& rule : {cov_rule(1.0), ess_rule(0.5)}) {
-    const Transition t = choose_step(l, 1.0, rule);
-    CHECK(t.status == TransitionStatus::final_step);
+    const TemperingStep t = choose_step(l, 1.0, rule);
+    CHECK(t.status == TemperingStatus::final_step);
     CHECK(t.effective_sample_size == 1.0);
   }
   // With N - 1: sqrt(2) tanh(step gap / 2) = 1.
-  const Transition sample = choose_step(l, 1.0, cov_rule(1.0, Deviation::sample));
+  const TemperingStep sample = choose_step(l, 1.0, cov_rule(1.0, Deviation::sample));
   check_solved(sample);
   CHECK_THAT(sample.step, WithinRel(2.0 * std::atanh(std::sqrt(0.5)) / 1e6, closed_form_tolerance));
-  const Transition ess = choose_step(l, 1.0, ess_rule(0.75));  // tanh^2 = 1/3
+  const TemperingStep ess = choose_step(l, 1.0, ess_rule(0.75));  // tanh^2 = 1/3
   check_solved(ess);
   CHECK_THAT(ess.step, WithinRel(2.0 * std::atanh(std::sqrt(1.0 / 3.0)) / 1e6, closed_form_tolerance));
 }
@@ -353,10 +353,10 @@ TEST_CASE("the threads leave a step over many blocks as it is, and the whole is 
   Values l = skewed(3 * tmcmc::reduction_rows + 17, 20.0, 12);
   l[5] = -infinity;
   for (const auto& rule : {cov_rule(1.0), ess_rule(0.5)}) {
-    const Transition one = choose_step(l, 1.0, rule);
-    CHECK(one.status == TransitionStatus::solved);
+    const TemperingStep one = choose_step(l, 1.0, rule);
+    CHECK(one.status == TemperingStatus::solved);
     for (const int threads : {2, 3}) {
-      const Transition many = choose_step(l, 1.0, rule, threads);
+      const TemperingStep many = choose_step(l, 1.0, rule, threads);
       CHECK(many.step == one.step);
       CHECK(many.effective_sample_size == one.effective_sample_size);
       CHECK(many.coefficient_of_variation == one.coefficient_of_variation);

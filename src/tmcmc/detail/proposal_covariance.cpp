@@ -1,4 +1,4 @@
-#include "tmcmc/proposal.hpp"
+#include "tmcmc/detail/proposal_covariance.hpp"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 #include "portable_math/sums.hpp"
 #include "tmcmc/parallel.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 namespace {
 
@@ -119,4 +119,4 @@ Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
   return factor;
 }
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

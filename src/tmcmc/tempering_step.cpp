@@ -1,4 +1,4 @@
-#include "tmcmc/transition.hpp"
+#include "tmcmc/tempering_step.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -76,19 +76,19 @@ Criterion effective_sample_size_rule(double fraction) {
   return {.kind = CriterionKind::effective_sample_size, .target = fraction};
 }
 
-Transition choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion,
-                       int threads) {
+TemperingStep choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion,
+                          int threads) {
   const WeightStatistics statistics(log_likelihood, threads);
   const Index feasible = statistics.feasible();
   const Index counted =
       criterion.counted == Counted::all ? static_cast<Index>(log_likelihood.size()) : feasible;
-  Transition result;
+  TemperingStep result;
   if (feasible == 0) {
-    result.status = TransitionStatus::infeasible;
+    result.status = TemperingStatus::infeasible;
     return result;
   }
   Excess excess(statistics, criterion, counted);
-  const auto finish = [&](double step, TransitionStatus status) {
+  const auto finish = [&](double step, TemperingStatus status) {
     result.step = step;
     result.status = status;
     result.effective_sample_size = statistics.effective_sample_size(step);
@@ -100,10 +100,10 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
   const double excess_remaining = excess(remaining);
   if (!(excess_remaining >
         0.0)) {  // a NaN: one sample with the N-1 deviation, or 0/0 in N_eff = N with equal weights
-    return finish(remaining, TransitionStatus::final_step);
+    return finish(remaining, TemperingStatus::final_step);
   }
   if (criterion.kind == CriterionKind::effective_sample_size && criterion.target == 1.0) {
-    result.status = TransitionStatus::zero_step;
+    result.status = TemperingStatus::zero_step;
     result.evaluations = excess.evaluations();
     return result;
   }
@@ -132,7 +132,7 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
     excess_low = excess(low);
     if (low <= smallest_step && excess_low > 0.0) {
       result.status =
-          excess.of_feasible(feasible) < 0.0 ? TransitionStatus::zero_step : TransitionStatus::unreachable;
+          excess.of_feasible(feasible) < 0.0 ? TemperingStatus::zero_step : TemperingStatus::unreachable;
       result.evaluations = excess.evaluations();
       return result;
     }
@@ -156,7 +156,7 @@ Transition choose_step(ConstDoubles log_likelihood, double remaining, const Crit
   result.bracket_low = portable_math::exp(root.first);
   result.bracket_high = portable_math::exp(root.second);
   return finish(std::min(remaining, 0.5 * (result.bracket_low + result.bracket_high)),
-                TransitionStatus::solved);
+                TemperingStatus::solved);
 }
 
 }  // namespace tmcmc

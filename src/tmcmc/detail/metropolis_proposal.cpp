@@ -1,4 +1,4 @@
-#include "tmcmc/proposals.hpp"
+#include "tmcmc/detail/metropolis_proposal.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 
 #include "portable_math/multiversion.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 namespace {
 
@@ -229,4 +229,4 @@ std::size_t ProposalLanes::check(const BoxPrior& prior, std::size_t count) {
       std::count(inside_.begin(), inside_.begin() + static_cast<std::ptrdiff_t>(count), 1.0));
 }
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

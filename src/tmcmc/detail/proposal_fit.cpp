@@ -1,8 +1,10 @@
-#include "tmcmc/stage_kernels.hpp"
+#include "tmcmc/detail/proposal_fit.hpp"
 
 #include <vector>
 
-namespace tmcmc {
+#include "tmcmc/detail/proposal_covariance.hpp"
+
+namespace tmcmc::detail {
 
 namespace {
 
@@ -84,4 +86,4 @@ StageKernels stage_kernels(const BoxPrior& prior, const Options& options, const 
   return stage;
 }
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

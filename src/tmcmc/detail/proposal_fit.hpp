@@ -2,11 +2,11 @@
 /// The proposals of a stage, fitted to the weighted population before it.
 #pragma once
 
+#include "tmcmc/detail/population_move.hpp"
 #include "tmcmc/options.hpp"
 #include "tmcmc/result.hpp"
-#include "tmcmc/stage_moves.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 /// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that was fitted to the odd
 /// chains, and the other way round; unless one half of the weights is too few for its
@@ -18,4 +18,4 @@ namespace tmcmc {
                                          ConstDoubles weights, double weight_sum,
                                          std::span<const Index> ancestors);
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

@@ -30,7 +30,7 @@ struct Criterion {
 [[nodiscard]] Criterion effective_sample_size_rule(double fraction = 0.5);
 
 /// How the search for a step ended.
-enum class TransitionStatus {
+enum class TemperingStatus {
   final_step,   ///< the remaining step already meets the criterion
   solved,       ///< root found
   zero_step,    ///< only a step of 0 meets the criterion (N_eff = N), or none of 1e-300 and more
@@ -39,10 +39,10 @@ enum class TransitionStatus {
 };
 
 /// A step of beta with what the search found on the way.
-struct Transition {
-  double step = 0.0;                                   ///< dbeta
-  TransitionStatus status = TransitionStatus::solved;  ///< how the search ended
-  double effective_sample_size = 0.0;                  ///< at the step; 0 where no step was found
+struct TemperingStep {
+  double step = 0.0;                                 ///< dbeta
+  TemperingStatus status = TemperingStatus::solved;  ///< how the search ended
+  double effective_sample_size = 0.0;                ///< at the step; 0 where no step was found
   double coefficient_of_variation = 0.0;  ///< at the step, with the criterion's deviation and count
   double bracket_low = 0.0;               ///< final bracket of the root
   double bracket_high = 0.0;              ///< the larger end; both 0 where there was no search
@@ -55,7 +55,7 @@ struct Transition {
 /// \param log_likelihood  free of NaN and plus infinity
 /// \param remaining  1 - beta, positive
 /// \param threads  the result does not depend on it
-[[nodiscard]] Transition choose_step(ConstDoubles log_likelihood, double remaining,
-                                     const Criterion& criterion, int threads = 1);
+[[nodiscard]] TemperingStep choose_step(ConstDoubles log_likelihood, double remaining,
+                                        const Criterion& criterion, int threads = 1);
 
 }  // namespace tmcmc

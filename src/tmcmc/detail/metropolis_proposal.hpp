@@ -6,20 +6,9 @@
 #include <vector>
 
 #include "tmcmc/prior.hpp"
+#include "tmcmc/proposal_options.hpp"
 
-namespace tmcmc {
-
-/// Coordinates in which proposals are made.
-enum class Coordinates {
-  natural,  ///< the parameters; a proposal can fall outside the prior box
-  unbounded  ///< u = log((x - lower) / (upper - x)); the acceptance ratio carries the Jacobian, and none falls outside
-};
-
-/// What happens to a proposal outside the prior box.
-enum class Boundary {
-  reject,  ///< the chain stays; leaves the tempered posterior invariant
-  redraw   ///< drawn again until inside, without the correction of the acceptance ratio (published scripts)
-};
+namespace tmcmc::detail {
 
 /// The Metropolis kernel of one stage. With u the coordinates, L = factor_unit * factor the Cholesky factor of their
 /// covariance Sigma, and S a set of whitened coordinates, a proposal is
@@ -107,4 +96,4 @@ class ProposalLanes {
   Lanes log_correction_{};
 };
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

@@ -27,11 +27,11 @@ using tmcmc::Boundary;
 using tmcmc::BoxPrior;
 using tmcmc::Index;
 using tmcmc::LogLikelihood;
-using tmcmc::MetropolisKernel;
-using tmcmc::MoveCounts;
-using tmcmc::Mover;
 using tmcmc::Population;
 using tmcmc::SamplingError;
+using tmcmc::detail::MetropolisKernel;
+using tmcmc::detail::MoveCounts;
+using tmcmc::detail::Mover;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -229,10 +229,10 @@ TEST_CASE("a log-likelihood of NaN or plus infinity ends the step with an error 
   points << 1.0, 2.0, 0.1, -4.0, 5.0, 6.0;
   Eigen::VectorXd values(3);
   values << -infinity, not_a_number, infinity;
-  CHECK_THROWS_WITH(tmcmc::require_valid(points, values),
+  CHECK_THROWS_WITH(tmcmc::detail::require_valid(points, values),
                     Contains("nan at (0.10000000000000001, -4)") && Contains("minus infinity"));
   values << -infinity, -1e300, 1e300;
-  CHECK_NOTHROW(tmcmc::require_valid(points, values));
+  CHECK_NOTHROW(tmcmc::detail::require_valid(points, values));
 }
 
 TEST_CASE("too many redraws end the step with an error", "[tmcmc][moves]") {

@@ -2,15 +2,10 @@
 /// Covariance of the Normal proposal (Eq. 5).
 #pragma once
 
+#include "tmcmc/proposal_options.hpp"
 #include "tmcmc/types.hpp"
 
-namespace tmcmc {
-
-/// The m in Eq. 5.
-enum class Centre {
-  weighted_mean,  ///< Ching and Chen 2007
-  plain_mean      ///< as Eq. 5 is printed
-};
+namespace tmcmc::detail {
 
 /// Sigma = scale^2 sum_i w_i (theta_i - m)(theta_i - m)^T / sum_i w_i, d x d.
 /// \param points   n x d
@@ -30,4 +25,4 @@ enum class Centre {
 ///         of the variance behind a direction that is almost without one.
 [[nodiscard]] Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance);
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

@@ -1,10 +1,10 @@
-#include "tmcmc/resampling.hpp"
+#include "tmcmc/detail/resample.hpp"
 
 #include <cmath>
 
 #include "tmcmc/parallel.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 namespace {
 
@@ -107,12 +107,6 @@ void residual(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, s
 }  // namespace
 
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
-              std::span<Index> ancestors) {
-  ResamplingWorkspace work;
-  resample(scheme, weights, key, stage, ancestors, work);
-}
-
-void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
               std::span<Index> ancestors, ResamplingWorkspace& work, int threads) {
   switch (scheme) {
     case Resampling::multinomial:
@@ -130,4 +124,10 @@ void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std
   }
 }
 
-}  // namespace tmcmc
+}  // namespace tmcmc::detail
+
+void tmcmc::resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
+                     std::span<Index> ancestors) {
+  detail::ResamplingWorkspace work;
+  detail::resample(scheme, weights, key, stage, ancestors, work);
+}
