@@ -142,7 +142,7 @@ $(COMPARISON) &: $(COMPARED) $(PRINTED)
 	  --markdown-output $(GEN)/compare_published.md
 
 compare: $(COMPARED) $(PRINTED)
-	@tools/build compare_published >/dev/null
+	@tools/build compare_published >&2
 	@$(COMPARE)
 
 RESULTS := $(AUDIT) $(GEN)/fig2_phase_angle.csv $(VALIDATION) $(GEN)/least_squares_baseline.csv $(STUDY) $(OF_SAMPLES) \
