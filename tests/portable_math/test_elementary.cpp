@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "portable_math/elementary.hpp"
+#include "portable_math/normal_quantile.hpp"
 
 namespace {
 
@@ -308,4 +309,23 @@ TEST_CASE("sine and cosine of turns are exact at the quarters and right between 
   }
   CHECK(largest < turn_ulps);
   CHECK(largest_absolute < turn_tolerance);
+}
+
+TEST_CASE("the normal quantile agrees with the error function to its last digits", "[portable_math]") {
+  for (double p = 1e-300; p < 0.5; p *= 1.7) {
+    CAPTURE(p);
+    const double z = portable_math::normal_quantile(p);
+    const double slope = -z - 1.0 / std::min(z, -1.0);  // about -d log p / dz
+    CHECK_THAT(0.5 * std::erfc(-z * std::sqrt(0.5)),
+               Catch::Matchers::WithinRel(p, 1e-14 * (1.0 + slope * -z)));
+  }
+  for (double p = 0.25; p > 0x1p-53; p *= 0.5) {  // 1 - p is exact
+    CHECK(portable_math::normal_quantile(1.0 - p) == -portable_math::normal_quantile(p));
+  }
+  CHECK(portable_math::normal_quantile(0.5) == 0.0);
+  CHECK(portable_math::normal_quantile(0.0) == -std::numeric_limits<double>::infinity());
+  CHECK(portable_math::normal_quantile(1.0) == std::numeric_limits<double>::infinity());
+  CHECK(std::isnan(portable_math::normal_quantile(-0.1)));
+  CHECK(std::isnan(portable_math::normal_quantile(1.1)));
+  CHECK_THAT(portable_math::normal_quantile(0.975), Catch::Matchers::WithinRel(1.959963984540054, 1e-15));
 }
