@@ -1,5 +1,5 @@
 /// \file
-/// Cells and lines of CSV files as text; internal to CsvTable.
+/// Cells and lines of CSV files as text, and the numbers in them.
 #pragma once
 
 #include <string>

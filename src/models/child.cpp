@@ -22,13 +22,16 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds longest_wait(50);  // between two looks at the interrupt flag
 
-/// Errno of a child that could not be started, or 0. It leads a process group.
-int spawn(char* const* arguments, const char* directory, pid_t& child) {
+/// Errno of a child that could not be started, or 0.
+int spawn(char* const* arguments, const char* directory, int input, int output, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  // A process of the background that reads from the terminal would be stopped.
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  if (input < 0) {  // a process of the background that reads from the terminal would be stopped
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  } else {
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  }
+  posix_spawn_file_actions_adddup2(&actions, output < 0 ? STDERR_FILENO : output, STDOUT_FILENO);
   posix_spawn_file_actions_addchdir_np(&actions, directory);
 
   posix_spawnattr_t attributes;
@@ -48,20 +51,44 @@ int spawn(char* const* arguments, const char* directory, pid_t& child) {
   return error;
 }
 
-/// Kills what is left of the group; gives the leader's wait status.
-int end_group(pid_t leader) {
-  kill(-leader, SIGKILL);  // until waitpid the number is the leader's own, even if it has ended
-  int status = 0;
-  while (waitpid(leader, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
+}  // namespace
+
+Clock::time_point deadline_after(double seconds) {
+  const std::chrono::duration<double> limit(std::min(seconds, 1e9));
+  return seconds > 0.0 ? Clock::now() + std::chrono::duration_cast<Clock::duration>(limit)
+                       : Clock::time_point::max();
 }
 
-/// Whether the process ended before the deadline and before an interrupt.
-bool wait_for(int process, Clock::time_point deadline) {
+Child::Child(const std::vector<std::string>& arguments, const std::string& directory, int input, int output) {
+  std::vector<char*> pointers;
+  for (const std::string& argument : arguments) {
+    pointers.push_back(const_cast<char*>(argument.c_str()));
+  }
+  pointers.push_back(nullptr);
+  if (const int error = spawn(pointers.data(), directory.c_str(), input, output, leader_); error != 0) {
+    leader_ = -1;
+    end_ = {ChildEnd::Kind::not_started, error};
+    return;
+  }
+  descriptor_ = static_cast<int>(syscall(SYS_pidfd_open, leader_, 0));
+  if (descriptor_ < 0) {
+    const int error = errno;
+    end();
+    throw std::system_error(error, std::generic_category(), "pidfd_open");
+  }
+}
+
+Child::~Child() {
+  end();
+}
+
+bool Child::wait_until(Clock::time_point deadline) const {
+  if (leader_ < 0) {
+    return true;
+  }
   for (auto now = Clock::now(); now < deadline && io::interrupt_signal() == 0; now = Clock::now()) {
     const auto wait = std::min<Clock::duration>(longest_wait, deadline - now);
-    pollfd waited{process, POLLIN, 0};
+    pollfd waited{descriptor_, POLLIN, 0};
     const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(wait).count();
     if (poll(&waited, 1, static_cast<int>(milliseconds)) > 0) {
       return true;
@@ -70,38 +97,31 @@ bool wait_for(int process, Clock::time_point deadline) {
   return false;
 }
 
-}  // namespace
+ChildEnd Child::end() {
+  if (leader_ < 0) {
+    return end_;
+  }
+  kill(-leader_, SIGKILL);  // until waitpid the number is the leader's own, even if it has ended
+  int status = 0;
+  while (waitpid(leader_, &status, 0) < 0 && errno == EINTR) {
+  }
+  leader_ = -1;
+  if (descriptor_ >= 0) {
+    close(descriptor_);
+  }
+  end_ = WIFSIGNALED(status) ? ChildEnd{ChildEnd::Kind::signalled, WTERMSIG(status)}
+                             : ChildEnd{ChildEnd::Kind::exited, WEXITSTATUS(status)};
+  return end_;
+}
 
 ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& directory,
                    double timeout_seconds) {
-  std::vector<char*> pointers;
-  for (const std::string& argument : arguments) {
-    pointers.push_back(const_cast<char*>(argument.c_str()));
-  }
-  pointers.push_back(nullptr);
-  const auto limit = std::chrono::duration<double>(std::min(timeout_seconds, 1e9));
-  const auto deadline = timeout_seconds > 0.0
-                            ? Clock::now() + std::chrono::duration_cast<Clock::duration>(limit)
-                            : Clock::time_point::max();
-  pid_t child = -1;
-  if (const int error = spawn(pointers.data(), directory.c_str(), child); error != 0) {
-    return {ChildEnd::Kind::not_started, error};
-  }
-  const int process = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
-  if (process < 0) {
-    const int error = errno;
-    end_group(child);
-    throw std::system_error(error, std::generic_category(), "pidfd_open");
-  }
-  const bool ended = wait_for(process, deadline);
-  close(process);
-  const int status = end_group(child);
+  const auto deadline = deadline_after(timeout_seconds);
+  Child child(arguments, directory);
+  const bool ended = child.wait_until(deadline);
+  const ChildEnd end = child.end();
   io::stop_if_interrupted();
-  if (!ended) {
-    return {ChildEnd::Kind::timed_out, 0};
-  }
-  return WIFSIGNALED(status) ? ChildEnd{ChildEnd::Kind::signalled, WTERMSIG(status)}
-                             : ChildEnd{ChildEnd::Kind::exited, WEXITSTATUS(status)};
+  return ended ? end : ChildEnd{ChildEnd::Kind::timed_out, 0};
 }
 
 }  // namespace models

@@ -1,20 +1,17 @@
 #include "models/program.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cmath>
-#include <cstring>
+#include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <system_error>
+#include <utility>
 
-#include "errors/invalid_value.hpp"
 #include "io/csv.hpp"
 #include "io/scratch_directory.hpp"
 #include "models/child.hpp"
 #include "models/echo.hpp"
+#include "models/model_error.hpp"
 #include "models/start_failure.hpp"
 
 namespace models {
@@ -28,64 +25,22 @@ const std::string points_name = "points.csv";
 const std::string results_name = "log_likelihoods.csv";
 const std::string column = "log_likelihood";
 
-std::string end_of(const ChildEnd& end, const ProgramOptions& options) {
-  switch (end.kind) {
-    case ChildEnd::Kind::exited:
-      return end.value == 0 ? std::string()
-                            : fmt::format("ended with status {}{}: expected 0", end.value,
-                                          explain_command_not_run(options.program, end.value));
-    case ChildEnd::Kind::signalled:
-      return fmt::format("was ended by signal {} ({}): expected an exit", end.value, strsignal(end.value));
-    case ChildEnd::Kind::timed_out:
-      return fmt::format("took more than {} s and was killed", io::format_number(options.timeout_seconds));
-    case ChildEnd::Kind::not_started:
-      return "could not be started: " + explain_start_failure(options.program, end.value);
-  }
-  return {};
-}
-
 }  // namespace
 
 Program::Program(ProgramOptions options) : options_(std::move(options)) {
-  if (options_.parameter_names.empty()) {
-    throw errors::InvalidValue("parameter_names", "", "at least one name");
-  }
-  if (!(options_.timeout_seconds >= 0.0) || !std::isfinite(options_.timeout_seconds)) {
-    throw errors::InvalidValue("timeout_seconds", io::format_number(options_.timeout_seconds),
-                               "a finite number of at least 0");
-  }
-  std::error_code error;
-  const bool is_file = fs::is_regular_file(options_.program, error);
-  if (!is_file || access(options_.program.c_str(), X_OK) != 0) {
-    throw ProgramError(fmt::format("{}: {}: expected a program that can be run",
-                                   io::printable(options_.program, 200),
-                                   is_file ? std::strerror(errno)
-                                   : error ? error.message()
-                                           : "not a file"));
-  }
-  options_.program = fs::absolute(options_.program).string();
+  require_options(options_.parameter_names, options_.timeout_seconds);
+  options_.program = runnable_path(options_.program);
 }
 
 void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                          Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
   const auto fail = [&](const std::string& what, Eigen::Index row, bool first_of_batch) {
-    std::string point;
-    for (Eigen::Index j = 0; j < points.cols(); ++j) {
-      point +=
-          fmt::format("{}{} = {}", j > 0 ? ", " : "", options_.parameter_names[static_cast<std::size_t>(j)],
-                      io::format_number(points(row, j)));
-    }
-    throw ProgramError(fmt::format("{}: {}; {} ({})", io::printable(options_.program, 200), what,
-                                   first_of_batch ? fmt::format("the first of {} points", points.rows())
-                                                  : fmt::format("point {} of {}", row + 1, points.rows()),
-                                   point));
+    const auto& names = options_.parameter_names;
+    throw ModelError(fmt::format(
+        "{}: {}; {}", io::printable(options_.program, 200), what,
+        first_of_batch ? describe_first_point(names, points) : describe_point(names, points, row)));
   };
-  if (points.cols() != static_cast<Eigen::Index>(options_.parameter_names.size()) ||
-      log_likelihood.size() != points.rows()) {
-    throw errors::InvalidValue(
-        "points", fmt::format("{} x {} with {} results", points.rows(), points.cols(), log_likelihood.size()),
-        fmt::format("{} columns and as many results as points", options_.parameter_names.size()));
-  }
+  require_shape(points, log_likelihood, options_.parameter_names.size());
   if (points.rows() == 0) {
     return;
   }
@@ -100,7 +55,7 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   writer.commit();
 
   const ChildEnd end = run_child({options_.program, input, output}, scratch.path(), options_.timeout_seconds);
-  if (const std::string what = end_of(end, options_); !what.empty()) {
+  if (const std::string what = explain_end(options_.program, end, options_.timeout_seconds); !what.empty()) {
     fail(what, 0, true);
   }
   if (!fs::is_regular_file(output)) {

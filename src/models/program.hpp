@@ -12,7 +12,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,23 +24,16 @@ struct ProgramOptions {
   double timeout_seconds = 0.0;              ///< of one call; 0: no limit
 };
 
-/// A call that gave no log-likelihoods. what() is one line: the program, what it did, the point that is concerned, and how many
-/// points were in the batch.
-class ProgramError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// The program as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be called by several threads.
 class Program {
  public:
-  /// \throws errors::InvalidValue for no parameter or a timeout that is negative or not finite; ProgramError if the program
+  /// \throws errors::InvalidValue for no parameter or a timeout that is negative or not finite; ModelError if the program
   ///         is not an executable file.
   explicit Program(ProgramOptions options);
 
   /// \param points  n x d
   /// \param log_likelihood  n, overwritten
-  /// \throws ProgramError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
+  /// \throws ModelError if the program cannot be started, ends with another status than 0 or by a signal, exceeds the time
   ///         (it and its process group are killed), or writes no file, other than n rows, a cell that is neither a number nor minus infinity, or
   ///         parameters other than those of the row's point;
   ///         io::OutputError if the points cannot be written; io::Interrupted as run_child.

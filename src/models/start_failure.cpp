@@ -1,19 +1,26 @@
 #include "models/start_failure.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 
+#include "io/csv.hpp"
 #include "io/errors.hpp"
+#include "models/model_error.hpp"
 
 namespace models {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t longest_first_line = 256;  // that Linux reads
 constexpr std::size_t longest_shown = 200;
@@ -77,6 +84,35 @@ std::string explain_command_not_run(const std::string& program, int status) {
   return fmt::format(" (a command that could not be run; the first line is '{}'{})",
                      io::printable(first_line, longest_shown),
                      first_line.ends_with('\r') ? ", which ends in CR LF, as on Windows" : "");
+}
+
+std::string explain_end(const std::string& program, const ChildEnd& end, double timeout_seconds) {
+  switch (end.kind) {
+    case ChildEnd::Kind::exited:
+      return end.value == 0 ? std::string()
+                            : fmt::format("ended with status {}{}: expected 0", end.value,
+                                          explain_command_not_run(program, end.value));
+    case ChildEnd::Kind::signalled:
+      return fmt::format("was ended by signal {} ({}): expected an exit", end.value, strsignal(end.value));
+    case ChildEnd::Kind::timed_out:
+      return fmt::format("took more than {} s and was killed", io::format_number(timeout_seconds));
+    case ChildEnd::Kind::not_started:
+      return "could not be started: " + explain_start_failure(program, end.value);
+  }
+  return {};
+}
+
+std::string runnable_path(const std::string& program) {
+  std::error_code error;
+  const bool is_file = fs::is_regular_file(program, error);
+  if (!is_file || access(program.c_str(), X_OK) != 0) {
+    throw ModelError(fmt::format("{}: {}: expected a program that can be run",
+                                 io::printable(program, longest_shown),
+                                 is_file ? std::strerror(errno)
+                                 : error ? error.message()
+                                         : "not a file"));
+  }
+  return fs::absolute(program).string();
 }
 
 }  // namespace models

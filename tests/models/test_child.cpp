@@ -1,5 +1,3 @@
-#include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +12,7 @@
 #include "io/interrupt.hpp"
 #include "io/temporary_directory.hpp"
 #include "models/child.hpp"
+#include "models/lifeline.hpp"
 
 using models::ChildEnd;
 namespace fs = std::filesystem;
@@ -24,25 +23,6 @@ ChildEnd run_shell(const std::string& script, double timeout_seconds = 0.0,
                    const std::string& directory = "/") {
   return models::run_child({"/bin/sh", "-c", script}, directory, timeout_seconds);
 }
-
-/// A pipe whose writing end children inherit: it closes when the last of them has ended.
-class Lifeline {
- public:
-  Lifeline() { REQUIRE(::pipe2(ends_, 0) == 0); }
-  ~Lifeline() {
-    ::close(ends_[0]);
-    if (ends_[1] >= 0) ::close(ends_[1]);
-  }
-  /// Whether all children have ended ten seconds from now at the latest.
-  bool all_have_ended() {
-    ::close(std::exchange(ends_[1], -1));
-    pollfd waiting{ends_[0], POLLIN, 0};
-    return ::poll(&waiting, 1, 10000) == 1 && (waiting.revents & POLLHUP) != 0;
-  }
-
- private:
-  int ends_[2];
-};
 
 }  // namespace
 

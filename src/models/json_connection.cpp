@@ -1,0 +1,159 @@
+#include "models/json_connection.hpp"
+
+#include <httplib.h>
+
+#undef _res  // of <resolv.h>, a name that Eigen uses
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "errors/invalid_value.hpp"
+#include "io/csv.hpp"
+#include "io/interrupt.hpp"
+#include "models/model_error.hpp"
+
+namespace models {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr double longest_timeout_seconds = 2e6;  // that httplib's milliseconds hold
+constexpr std::chrono::seconds connection_timeout(30);
+constexpr std::size_t longest_shown = 200;
+
+/// The JSON of a text. Python's json module writes infinities and NaN, which are no JSON, as words; they become texts.
+json parse(std::string text) {
+  json value = json::parse(text, nullptr, false);
+  if (value.is_discarded()) {
+    for (const std::string word : {"-Infinity", "NaN"}) {
+      for (auto at = text.find(word); at != text.npos; at = text.find(word, at + word.size() + 2)) {
+        text.replace(at, word.size(), '"' + word + '"');
+      }
+    }
+    value = json::parse(text, nullptr, false);
+  }
+  return value;
+}
+
+std::string text_of(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() ? "none"
+         : found->is_string()  ? io::printable(found->get<std::string>(), longest_shown)
+                               : io::printable(found->dump(), longest_shown);
+}
+
+bool is_gateway_failure(int status) {
+  return status == 502 || status == 503 || status == 504;
+}
+
+void wait_interruptibly(Seconds time) {
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
+  while (Clock::now() < end) {
+    io::stop_if_interrupted();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+/// The client, and a thread that breaks off what it waits for at an interrupt.
+struct JsonConnection::Http {
+  httplib::Client client;
+  std::string path;
+  std::jthread watcher;
+
+  Http(const std::string& host, std::string path_of_url) : client(host), path(std::move(path_of_url)) {
+    watcher = std::jthread([this](const std::stop_token& stop) {
+      std::mutex mutex;
+      std::condition_variable_any condition;
+      std::unique_lock lock(mutex);
+      while (!condition.wait_for(lock, stop, std::chrono::milliseconds(50),
+                                 [&] { return stop.stop_requested(); })) {
+        if (io::interrupt_signal() != 0) {
+          client.stop();
+        }
+      }
+    });
+  }
+};
+
+JsonConnection::JsonConnection(const ServerOptions& options) : options_(options) {
+  const std::string scheme = "http://";
+  if (!options.url.starts_with(scheme) || options.url.size() == scheme.size()) {
+    throw errors::InvalidValue("url", io::printable(options.url), "http://HOST[:PORT][/PATH]");
+  }
+  if (options.retries < 0) {
+    throw errors::InvalidValue("retries", options.retries, "at least 0");
+  }
+  if (!(options.timeout_seconds >= 0.0) || !std::isfinite(options.timeout_seconds)) {
+    throw errors::InvalidValue("timeout_seconds", options.timeout_seconds, "a finite number of at least 0");
+  }
+  const std::size_t slash = std::min(options.url.find('/', scheme.size()), options.url.size());
+  std::string path = options.url.substr(slash);
+  path.erase(path.find_last_not_of('/') + 1);
+  http_ = std::make_unique<Http>(options.url.substr(0, slash), std::move(path));
+  const double seconds = options.timeout_seconds > 0.0 ? options.timeout_seconds : longest_timeout_seconds;
+  http_->client.set_read_timeout(std::chrono::duration_cast<std::chrono::microseconds>(
+      Seconds(std::min(seconds, longest_timeout_seconds))));
+  http_->client.set_connection_timeout(connection_timeout);
+  http_->client.set_tcp_nodelay(true);
+}
+
+JsonConnection::~JsonConnection() = default;
+
+template <class Send>
+json JsonConnection::request(const Send& send) {
+  Seconds wait(0.1);
+  for (int attempt = 0;; ++attempt, wait *= 2.0, ++repeated_) {
+    io::stop_if_interrupted();
+    const auto start = Clock::now();
+    const httplib::Result result = send();
+    io::stop_if_interrupted();
+    if (!result && result.error() == httplib::Error::Read && options_.timeout_seconds > 0.0 &&
+        Seconds(Clock::now() - start).count() >= options_.timeout_seconds) {
+      throw ModelError(fmt::format("took more than {} s", io::format_number(options_.timeout_seconds)));
+    }
+    json answer = result ? parse(result->body) : json();
+    const bool has_error = answer.is_object() && answer.contains("error");
+    if (result && !(is_gateway_failure(result->status) && !has_error)) {
+      if (has_error) {
+        throw ModelError(fmt::format("answered with the error {}: {}", text_of(answer["error"], "type"),
+                                     text_of(answer["error"], "message")));
+      }
+      if (result->status != 200) {
+        throw ModelError(fmt::format("answered with the status {}: expected 200", result->status));
+      }
+      if (!answer.is_object()) {
+        throw ModelError(
+            fmt::format("answered '{}': expected a JSON object", io::printable(result->body, longest_shown)));
+      }
+      return answer;
+    }
+    if (attempt == options_.retries) {
+      throw ModelError(fmt::format("could not be reached in {} attempts: {}", attempt + 1,
+                                   result ? fmt::format("status {} of a gateway", result->status)
+                                          : "error '" + httplib::to_string(result.error()) + "'"));
+    }
+    wait_interruptibly(wait);
+  }
+}
+
+json JsonConnection::get(const std::string& path) {
+  return request([&] { return http_->client.Get(http_->path + path); });
+}
+
+json JsonConnection::post(const std::string& path, const json& body) {
+  const std::string text = body.dump();
+  return request([&] { return http_->client.Post(http_->path + path, text, "application/json"); });
+}
+
+}  // namespace models

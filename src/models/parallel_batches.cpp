@@ -1,0 +1,90 @@
+#include "models/parallel_batches.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "errors/invalid_value.hpp"
+
+namespace models {
+namespace {
+
+using tmcmc::Index;
+using Points = Eigen::Ref<const Eigen::MatrixXd>;
+using Values = Eigen::Ref<Eigen::VectorXd>;
+
+/// The exception of the lowest rows.
+class FirstFailure {
+ public:
+  void note(Index first_row) {
+    const std::lock_guard lock(mutex_);
+    has_failed_ = true;
+    if (!exception_ || first_row < first_row_) {
+      exception_ = std::current_exception();
+      first_row_ = first_row;
+    }
+  }
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+  void rethrow() const {
+    if (exception_) {
+      std::rethrow_exception(exception_);
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<bool> has_failed_ = false;
+  std::exception_ptr exception_;
+  Index first_row_ = 0;
+};
+
+void evaluate(const tmcmc::LogLikelihood& model, const ParallelOptions& options, const Points& points,
+              Values values) {
+  const Index n = points.rows();
+  const Index share = (n + options.calls - 1) / options.calls;
+  const Index rows = options.batch_rows > 0 ? std::min(options.batch_rows, n) : share;
+  const Index batches = (n + rows - 1) / rows;
+  std::atomic<Index> next = 0;
+  FirstFailure failure;
+  const auto work = [&] {
+    for (Index batch = next++; batch < batches && !failure.has_failed(); batch = next++) {
+      const Index first = batch * rows;
+      const Index count = std::min(rows, n - first);
+      try {
+        model(points.middleRows(first, count), values.segment(first, count));
+      } catch (...) {
+        failure.note(first);
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (Index i = 1; i < std::min<Index>(options.calls, batches); ++i) {
+      others.emplace_back(work);
+    }
+    work();
+  }
+  failure.rethrow();
+}
+
+}  // namespace
+
+tmcmc::LogLikelihood parallel_batches(tmcmc::LogLikelihood model, const ParallelOptions& options) {
+  if (options.calls < 1) {
+    throw errors::InvalidValue("calls", options.calls, "at least 1");
+  }
+  if (options.batch_rows < 0) {
+    throw errors::InvalidValue("batch_rows", options.batch_rows, "a number of rows, or 0 for equal shares");
+  }
+  return [model = std::move(model), options](const Points& points, Values values) {
+    if (points.rows() > 0) {
+      evaluate(model, options, points, values);
+    }
+  };
+}
+
+}  // namespace models
