@@ -105,11 +105,11 @@ $(FLOOR) &: $(TABLE1) $(PRIOR)
 $(GEN)/replicated_study.csv: $(TABLE1) $(PRIOR)
 	$(STEP) $@ $(BIN)/replicated_study --observations $(TABLE1) --studies $(STUDIES) --quiet --output $@
 
-VERDICTS := $(addprefix $(GEN)/,verdicts.csv verdicts.md contrasts.csv)
-$(VERDICTS) &: $(GEN)/replicated_study.csv $(PUB)/claims.csv $(PRINTED)
+VERDICTS := $(addprefix $(GEN)/,verdicts.csv verdicts.md contrasts.csv verdict_statistics.csv)
+$(VERDICTS) &: $(GEN)/replicated_study.csv $(GEN)/sampling_study_runs.csv $(GEN)/pbox_floor.csv $(PUB)/claims.csv $(PRINTED)
 	$(STEP) "$(VERDICTS)" $(BIN)/verdicts --observations $(TABLE1) --replicated $(GEN)/replicated_study.csv \
 	  --claims $(PUB)/claims.csv --table3 $(TABLE3) --table4 $(TABLE4) --quiet --output $(GEN)/verdicts.csv \
-	  --markdown-output $(GEN)/verdicts.md --contrasts-output $(GEN)/contrasts.csv
+	  --markdown-output $(GEN)/verdicts.md --contrasts-output $(GEN)/contrasts.csv --statistics-output $(GEN)/verdict_statistics.csv
 
 NULL := $(addprefix $(GEN)/fig9_null_distributions,.csv _counts.csv _printed.csv)
 $(NULL) &: $(GEN)/replicated_study.csv $(PRINTED)

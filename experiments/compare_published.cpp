@@ -10,20 +10,13 @@
 
 #include "friction/angle.hpp"
 #include "inputs.hpp"
+#include "replication/comparison.hpp"
 
 using namespace experiments;
 
 namespace {
 
-constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
-
-struct Cell {
-  std::string table, row, column;
-  double printed, ours;
-  replication::Interval95 interval = {missing_value, missing_value};  // of replicated studies
-  replication::PValue p = {missing_value, missing_value};             // adjusted by Holm
-  std::string verdict = {};
-};
+using Cell = replication::ComparedCell;
 
 /// All numeric cells of a printed table, looked up in ours by key column. Cells that ours lacks count as
 /// `missing`.
@@ -69,60 +62,46 @@ void compare(std::vector<Cell>& cells, const std::string& name, const std::strin
   }
 }
 
-/// Places the cells of Tables 3 and 4 in the distributions of replicated studies. A cell of Table 4 shows its own interval
-/// and the p-value of the whole table.
-void judge(std::vector<Cell>& cells, const std::vector<replication::StudySummary>& studies,
-           const PrintedTables& printed) {
-  const auto null = null_of(studies, printed);
-  const auto verdicts = replication::judge_tables(studies, printed.areas, printed.counts, null);
-  for (Cell& cell : cells) {
-    for (const auto& v : verdicts.areas) {
-      if (cell.table == "Table 3" && cell.row == v.sampler && cell.column == parameter_columns[v.parameter]) {
-        cell.interval = v.interval;
-        cell.p = v.p_holm;
-        cell.verdict = replication::name_of(v.number);
-      }
-    }
-    if (cell.table == "Table 4") {
-      std::vector<double> counts;
-      for (const auto& s : replication::null_studies(studies, cell.column, null)) {
-        const auto found = s.iterations.find(std::stol(cell.row));
-        counts.push_back(found == s.iterations.end() ? 0.0 : static_cast<double>(found->second));
-      }
-      cell.interval = replication::central_95(counts);
-      cell.p = verdicts.counts->p_holm;
-      cell.verdict = replication::name_of(verdicts.counts->number);
-    }
-  }
-}
-
 /// Ours minus printed; of angles the shortest way.
 double difference(const Cell& cell) {
   return cell.column == "phase_deg" ? friction::angle_residual_deg(cell.ours, cell.printed)
                                     : cell.ours - cell.printed;
 }
 
-std::string blank_if_nan(double value, const char* format) {
-  return std::isnan(value) ? "" : fmt::format(fmt::runtime(format), value);
+/// Where the cell stands among replicated studies, as far as that is known.
+std::string place_of(const Cell& cell) {
+  std::string text;
+  if (!std::isnan(cell.median)) {
+    text +=
+        fmt::format("studies {:.4g} ({:.4g} to {:.4g})", cell.median, cell.interval.low, cell.interval.high);
+  }
+  if (!std::isnan(cell.printed_percentile)) {
+    text += fmt::format(", percentiles {:.1f} and {:.1f}", cell.printed_percentile, cell.our_percentile);
+  }
+  if (!std::isnan(cell.p.value)) {
+    text +=
+        fmt::format("{}p = {:.2g} +- {:.1g}", text.empty() ? "" : ", ", cell.p.value, cell.p.standard_error);
+  }
+  return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
 }
 
-/// Tables 3 and 4 as they stand in the README.
-std::string markdown(const std::vector<Cell>& cells) {
-  std::string text =
-      "| table | row | column | printed | ours | 95 % of replicated studies | p (Holm) | standard error of p "
-      "| "
-      "the printed number is |\n"
-      "|---|---|---|---:|---:|---:|---:|---:|---|\n";
+void report_and_write(const Program& program, const std::vector<Cell>& cells,
+                      std::optional<io::CsvWriter>& csv) {
+  std::string table;
   for (const Cell& cell : cells) {
-    if (cell.table == "Table 3" || cell.table == "Table 4") {
-      text += fmt::format("| {} | {} | {} | {:.4g} | {:.4g} | {} to {} | {} | {} | {} |\n", cell.table,
-                          cell.table == "Table 4" ? cell.row + " iterations" : cell.row, cell.column,
-                          cell.printed, cell.ours, blank_if_nan(cell.interval.low, "{:.4g}"),
-                          blank_if_nan(cell.interval.high, "{:.4g}"), blank_if_nan(cell.p.value, "{:.2g}"),
-                          blank_if_nan(cell.p.standard_error, "{:.1g}"), cell.verdict);
+    if (cell.table != table) {
+      table = cell.table;
+      program.report("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column", "printed",
+                     "ours", "difference", "among replicated studies");
+    }
+    program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column,
+                   cell.printed, cell.ours, difference(cell), place_of(cell));
+    if (csv) {
+      csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, difference(cell), cell.median,
+               cell.interval.low, cell.interval.high, cell.printed_percentile, cell.our_percentile,
+               cell.p.value, cell.p.standard_error, cell.verdict);
     }
   }
-  return text;
 }
 
 }  // namespace
@@ -137,7 +116,8 @@ int main(int argc, char** argv) {
   std::string table4 = "data/generated/table4_iteration_counts.csv";
   std::string replicated;
   program.add_output(
-      "CSV: table, row, column, printed, ours, difference, low, high, p_holm, p_error, verdict");
+      "CSV: table, row, column, printed, ours, difference, median, low, high, printed_percentile, "
+      "our_percentile, p, p_error, verdict");
   std::string markdown_output;
   program.add_file_output("--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
   program.add_text("--published", printed_directory, "DIR", "Directory of the tables as printed");
@@ -156,24 +136,23 @@ int main(int argc, char** argv) {
     };
     std::vector<Cell> cells;
     compare(cells, "Table 1", "index", {"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"},
-            printed("table1_observations.csv"), io::CsvTable::read(table1), missing_value);
+            printed("table1_observations.csv"), io::CsvTable::read(table1), Cell::unknown);
     const auto prior = prior_for(inputs, physics.reading());
     const auto printed_prior = read_prior(printed_directory + "/table2_prior.csv");
     for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
       const auto row = static_cast<Eigen::Index>(j);
-      cells.push_back({.table = "Table 2",
-                       .row = parameter_columns[j],
-                       .column = "lower",
-                       .printed = printed_prior.lower()[row],
-                       .ours = prior.lower()[row]});
-      cells.push_back({.table = "Table 2",
-                       .row = parameter_columns[j],
-                       .column = "upper",
-                       .printed = printed_prior.upper()[row],
-                       .ours = prior.upper()[row]});
+      const auto add = [&](const char* bound, double printed_bound, double our_bound) {
+        cells.push_back({.table = "Table 2",
+                         .row = parameter_columns[j],
+                         .column = bound,
+                         .printed = printed_bound,
+                         .ours = our_bound});
+      };
+      add("lower", printed_prior.lower()[row], prior.lower()[row]);
+      add("upper", printed_prior.upper()[row], prior.upper()[row]);
     }
     compare(cells, "Table 3", "sampler", {"friction_force_n", "natural_frequency_hz"},
-            printed("table3_pbox_area.csv"), io::CsvTable::read(table3), missing_value);
+            printed("table3_pbox_area.csv"), io::CsvTable::read(table3), Cell::unknown);
     const auto printed_counts = printed("table4_iteration_counts.csv");
     const auto our_counts = io::CsvTable::read(table4);
     for (const auto* table : {&printed_counts, &our_counts}) {
@@ -183,39 +162,19 @@ int main(int argc, char** argv) {
     if (!replicated.empty()) {
       const auto tables = read_printed_tables(printed_directory + "/table3_pbox_area.csv",
                                               printed_directory + "/table4_iteration_counts.csv");
-      judge(cells, read_studies(replicated, tables), tables);
+      const auto studies = read_studies(replicated, tables);
+      replication::place_among_studies(cells, studies, tables.areas, tables.counts, null_of(studies, tables),
+                                       parameter_columns);
     }
-
-    std::optional<io::CsvWriter> csv;
+    auto csv = open_csv(program.output(),
+                        {"table", "row", "column", "printed", "ours", "difference", "median", "low", "high",
+                         "printed_percentile", "our_percentile", "p", "p_error", "verdict"});
     std::optional<io::OutputFile> markdown_file;
     if (!markdown_output.empty()) {
       markdown_file.emplace(markdown_output);
-      markdown_file->write(markdown(cells));
+      markdown_file->write(replication::comparison_markdown(cells));
     }
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"table", "row", "column", "printed", "ours", "difference", "low",
-                                           "high", "p_holm", "p_error", "verdict"});
-    }
-    std::string table;
-    for (const Cell& cell : cells) {
-      if (cell.table != table) {
-        table = cell.table;
-        program.report("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12} {:>22} {:>8}  {}\n", table, "row",
-                       "column", "printed", "ours", "difference", "95 % of studies", "p (Holm)",
-                       "printed number");
-      }
-      const std::string interval =
-          std::isnan(cell.p.value) ? ""
-                                   : fmt::format("{:.4g} to {:.4g}", cell.interval.low, cell.interval.high);
-      program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g} {:>22} {:>8}  {}\n", cell.row,
-                     cell.column, cell.printed, cell.ours, difference(cell), interval,
-                     blank_if_nan(cell.p.value, "{:.2g}"), cell.verdict);
-      if (csv) {
-        csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, difference(cell),
-                 cell.interval.low, cell.interval.high, cell.p.value, cell.p.standard_error, cell.verdict);
-      }
-    }
+    report_and_write(program, cells, csv);
     io::commit_all(csv, markdown_file);
   });
 }

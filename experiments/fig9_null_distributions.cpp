@@ -35,9 +35,8 @@ int main(int argc, char** argv) {
     auto counts_csv =
         open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});
     auto printed_csv = open_csv(printed_output, {"sampler", "parameter", "printed", "low", "high", "p"});
-    const auto verdicts = replication::judge_tables(studies, printed.areas, printed.counts,
-                                                    null_of(studies, printed), table_options.draws);
-    for (const auto& v : verdicts.areas) {
+    const auto null = null_of(studies, printed);
+    for (const auto& v : replication::judge_areas(studies, printed.areas, null)) {
       const auto& parameter = parameter_columns[v.parameter];
       program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",
                      v.sampler, parameter, v.printed, v.median, v.interval.low, v.interval.high, v.p.value);
@@ -85,10 +84,10 @@ int main(int argc, char** argv) {
           "{:.1g})\n",
           what, test.statistic, test.critical, test.p.value, test.p.standard_error);
     };
-    for (std::size_t i = 0; i < printed.counts.size(); ++i) {
-      report_test(printed.counts[i].sampler, verdicts.counts->columns[i]);
+    const auto tests = replication::judge_counts(studies, printed.counts, null, table_options.draws);
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      report_test(i < printed.counts.size() ? printed.counts[i].sampler : "both", tests[i]);
     }
-    report_test("both", verdicts.counts->test);
     io::commit_all(csv, counts_csv, printed_csv);
   });
 }

@@ -1,8 +1,6 @@
-// Table 1: observations with noise (Eqs. 22-23) for any truth, noise levels and seed; and an audit of the printed table:
-// driving frequency against ratio, standardised residuals, chi^2 and likelihood-ratio tests of the stated truth (1.086 N)
-// and of 1.0 N, and confidence intervals of friction force and natural frequency.
-//
-// Data: Table 1 as printed in Lye and Marino (ESREL 2023), or the reader's own measurements, for the audit.
+// Table 1: observations with noise (Eqs. 22-23) for any truth, noise levels and seed; and an audit of the printed table, with the phase
+// and the limit of the reading and with the exact ones: standardised residuals, chi^2 and likelihood-ratio tests of the stated truth
+// (1.086 N) and of 1.0 N, confidence intervals. Data: Table 1 as printed, or the reader's own observations.
 
 #include <cmath>
 
@@ -38,9 +36,8 @@ void report_parameter(const Program& program, const char* name, const char* unit
   program.report("  95 % interval {} with noise {} as stated, {} with noise unknown ({})\n",
                  interval(a.noise_known_95), a.noise_stated, interval(a.noise_unknown_95),
                  or_undefined("{:.4g}", a.noise_unbiased));
-  if (a.fitted_noise != estimation::FittedNoise::determined) {
+  if (a.fitted_noise != estimation::FittedNoise::determined)
     program.report("  the unknown noise is undefined: {}\n", describe(a.fitted_noise));
-  }
   for (const auto& t : a.tests) {
     if (std::isnan(t.chi_squared)) {
       program.report("  {} {}: the motion is not continuous at every observation\n", t.value, unit);
@@ -55,18 +52,25 @@ void report_parameter(const Program& program, const char* name, const char* unit
 }
 
 /// One row a value: the least-squares estimate with its intervals, and each value that was tested.
-void write_parameter(io::CsvWriter& csv, const std::string& parameter,
+void write_parameter(io::CsvWriter& csv, const std::string& physics, const std::string& parameter,
                      const std::vector<std::string>& hypotheses, const replication::ParameterAudit& a) {
   csv.row(parameter, "least squares", digits(a.estimate, 8), a.noise_stated, digits(a.noise_unbiased, 8),
           digits(a.chi_squared, 8), digits(a.chi_squared_p, 4), 0, "nan", 0, "nan",
           digits(a.noise_known_95.lower, 8), digits(a.noise_known_95.upper, 8),
-          digits(a.noise_unknown_95.lower, 8), digits(a.noise_unknown_95.upper, 8));
+          digits(a.noise_unknown_95.lower, 8), digits(a.noise_unknown_95.upper, 8), physics);
   for (std::size_t i = 0; i < a.tests.size(); ++i) {
     const auto& t = a.tests[i];
     csv.row(parameter, hypotheses[i], t.value, a.noise_stated, digits(a.noise_unbiased, 8),
             digits(t.chi_squared, 8), digits(t.chi_squared_p, 4), digits(t.likelihood_ratio, 8),
             digits(t.likelihood_ratio_p, 4), digits(t.f_statistic, 8), digits(t.f_p, 4), "nan", "nan", "nan",
-            "nan");
+            "nan", physics);
+  }
+}
+
+void write_audit(std::optional<io::CsvWriter>& csv, const std::string& physics, const replication::Audit& a) {
+  if (csv) {
+    write_parameter(*csv, physics, parameter_columns[0], {"stated truth", "alternative"}, a.friction_force);
+    write_parameter(*csv, physics, parameter_columns[1], {"stated truth"}, a.natural_frequency);
   }
 }
 
@@ -81,14 +85,12 @@ int main(int argc, char** argv) {
   replication::Truth truth;
   double alternative = 1.0;
   std::string audit_output, summary_output;
-  program.add_output("CSV of generated observations, in the columns of table1_observations.csv");
+  program.add_output("CSV of generated observations, as table1_observations.csv");
   program.add_file_output("--audit-output", audit_output, "CSV of the audit, one row an observation");
   program.add_file_output("--audit-summary-output", summary_output,
                           "CSV of the audit's statistics: estimates, tests, 95 % intervals");
-  program.add_number("--friction-force", truth.friction_force_n, non_negative(),
-                     "True friction force F_mu, N");
-  program.add_number("--natural-frequency", truth.natural_frequency_hz, positive(),
-                     "True natural frequency omega_n, Hz");
+  program.add_number("--friction-force", truth.friction_force_n, non_negative(), "True friction force, N");
+  program.add_number("--natural-frequency", truth.natural_frequency_hz, positive(), "True frequency, Hz");
   program.add_number("--phase-noise", truth.phase_noise_deg, non_negative(),
                      "Standard deviation of the phase angle, deg");
   program.add_number("--frequency-ratio-noise", truth.frequency_ratio_noise, non_negative(),
@@ -112,31 +114,36 @@ int main(int argc, char** argv) {
     auto csv =
         open_csv(program.output(), {"index", "r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});
     auto rows = open_csv(audit_output, {"index", "driving_frequency_difference_hz", "ratio_residual",
-                                        "phase_residual_truth", "phase_residual_alternative"});
-    auto summary = open_csv(
-        summary_output, {"parameter", "hypothesis", "value", "noise_stated", "noise_unbiased", "chi_squared",
-                         "chi_squared_p", "likelihood_ratio", "likelihood_ratio_p", "f_statistic", "f_p",
-                         "noise_known_low", "noise_known_high", "noise_unknown_low", "noise_unknown_high"});
+                                        "phase_residual_truth", "phase_residual_alternative",
+                                        "phase_residual_truth_exact", "phase_residual_alternative_exact"});
+    auto summary =
+        open_csv(summary_output, {"parameter", "hypothesis", "value", "noise_stated", "noise_unbiased",
+                                  "chi_squared", "chi_squared_p", "likelihood_ratio", "likelihood_ratio_p",
+                                  "f_statistic", "f_p", "noise_known_low", "noise_known_high",
+                                  "noise_unknown_low", "noise_unknown_high", "physics"});
     for (std::size_t i = 0; csv && i < generated.size(); ++i) {
       csv->row(i + 1, generated.nominal_ratio[i], generated.measured_ratio[i],
                generated.driving_frequency_hz[i], generated.phase_deg[i]);
     }
     if (audited) {
       const auto a = replication::audit(printed, truth, alternative, reading.physics);
+      const auto exact =
+          replication::audit(printed, truth, alternative, replication::with_exact_rules(reading.physics));
       program.report("Audit of {} (reading {}): truth {} N, {} Hz; noise {} deg, {}\n", inputs.observations,
                      physics.reading_name, truth.friction_force_n, truth.natural_frequency_hz,
                      truth.phase_noise_deg, truth.frequency_ratio_noise);
       report_rows(program, a, truth, alternative);
       report_parameter(program, "F_mu", "N", a.friction_force);
       report_parameter(program, "omega_n", "Hz", a.natural_frequency);
+      program.report("With the exact phase and limit:\n");
+      report_parameter(program, "F_mu", "N", exact.friction_force);
       for (std::size_t i = 0; rows && i < printed.size(); ++i) {
         rows->row(i + 1, a.frequency_difference_hz[i], a.ratio_residual[i], a.phase_residual_truth[i],
-                  a.phase_residual_alternative[i]);
+                  a.phase_residual_alternative[i], exact.phase_residual_truth[i],
+                  exact.phase_residual_alternative[i]);
       }
-      if (summary) {
-        write_parameter(*summary, parameter_columns[0], {"stated truth", "alternative"}, a.friction_force);
-        write_parameter(*summary, parameter_columns[1], {"stated truth"}, a.natural_frequency);
-      }
+      write_audit(summary, "of the reading", a);
+      write_audit(summary, "exact", exact);
     }
     io::commit_all(csv, rows, summary);
   });

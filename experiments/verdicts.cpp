@@ -4,9 +4,9 @@
 //
 // Data: Tables 3 and 4 and the claims as printed; replicated_study.csv; the exact posterior for C1 and Table 1 for C7.
 
-#include <algorithm>
 #include <boost/algorithm/string/replace.hpp>
 
+#include "claim_inputs.hpp"
 #include "inputs.hpp"
 #include "replication/claims.hpp"
 
@@ -27,24 +27,6 @@ std::string markdown_cell(const std::string& text) {
   return boost::algorithm::replace_all_copy(text, "|", "\\|");
 }
 
-/// Each of C1 to C9 once.
-/// \throws io::InputError naming file, line, column and value.
-void require_claims(const io::CsvTable& table, const std::string& path, const std::vector<std::string>& ids) {
-  require_once(table, ids, "id", "each claim once");
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (ids[i].size() != 2 || ids[i][0] != 'C' || ids[i][1] < '1' || ids[i][1] > '9') {
-      table.fail(i, "id", "one of C1 to C9");
-    }
-  }
-  for (char digit = '1'; digit <= '9'; ++digit) {
-    const std::string id = {'C', digit};
-    if (std::find(ids.begin(), ids.end(), id) == ids.end()) {
-      throw io::InputError(
-          fmt::format("{}: column 'id': no row '{}': expected one row for each of C1 to C9", path, id));
-    }
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -57,17 +39,23 @@ int main(int argc, char** argv) {
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");
   std::string claims = published("claims.csv");
-  std::string markdown_output, contrasts_output;
+  std::string runs = "data/generated/sampling_study_runs.csv";
+  std::string floor = "data/generated/pbox_floor.csv";
+  std::string markdown_output, contrasts_output, statistics_output;
   program.add_output("CSV: id, place, claim, number, verdict, evidence");
   program.add_file_output("--markdown-output", markdown_output, "The verdicts as a Markdown table");
   program.add_file_output(
       "--contrasts-output", contrasts_output,
       "CSV of the comparisons of the samplers behind C2 to C5: quantity, statistic, printed, null_low, "
       "null_high, p, ratio, ratio_low, ratio_high, margin");
+  program.add_file_output("--statistics-output", statistics_output,
+                          "CSV of the other numbers behind the verdicts: quantity, value, standard_error");
   program.add_input("--replicated", replicated, "Studies written by replicated_study");
   program.add_input("--table3", table3, "Table 3 as printed");
   program.add_input("--table4", table4, "Table 4 as printed");
   program.add_input("--claims", claims, "Claims: CSV with columns id, place, claim");
+  program.add_input("--runs-input", runs, "Runs of a study, written by sampling_study, for C11");
+  program.add_input("--floor", floor, "Areas of independent draws, written by pbox_floor, for C12");
   inputs.add_observations_to(program);
   inputs.add_prior_to(program);
   table_options.add_to(program);
@@ -76,15 +64,11 @@ int main(int argc, char** argv) {
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();
-    const auto claim_table = io::CsvTable::read(claims);
-    const auto ids = claim_table.text("id");
-    const auto places = claim_table.text("place");
-    const auto texts = claim_table.text("claim");
+    const auto [ids, places, texts] = read_claims(claims);
     const auto printed = read_printed_tables(table3, table4);
     const auto studies = read_studies(replicated, printed);
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
-    require_claims(claim_table, claims, ids);
     if (printed.counts.size() != 2 || printed.areas.size() != 4) {
       throw io::InputError(table4 + ": expected the columns of two samplers, and table 3 two rows");
     }
@@ -97,15 +81,25 @@ int main(int argc, char** argv) {
       markdown_file.emplace(markdown_output);
     }
 
-    const auto contrasts = replication::contrast_samplers(studies, printed.areas, printed.counts,
-                                                          run_options.seed, table_options.draws);
-    const auto audit = replication::audit(observations, stated, alternative_force_n, reading.physics);
+    const auto columns = replication::printed_columns(printed.areas, printed.counts);
+    const auto contrasts =
+        replication::contrast_samplers(studies, columns, run_options.seed, table_options.draws);
+    const auto joint = replication::test_jointly(studies, columns, null_of(studies, printed));
+
+    const auto audit = replication::audit(observations, stated, alternative_force_n,
+                                          replication::with_exact_rules(reading.physics));
 
     const friction::Likelihood likelihood(observations, reading.physics);
-    const auto exact = exact_posterior_for(inputs, likelihood, prior);
-    const double exceedance = exact.marginal(friction::friction_force).exceedance(stated.friction_force_n);
-
-    const replication::ClaimEvidence evidence{studies, printed.counts, contrasts, audit, stated, exceedance};
+    const auto exact = exact_posterior_for(inputs, likelihood, prior).marginal(friction::friction_force);
+    const replication::ClaimEvidence evidence{
+        .studies = studies,
+        .printed = columns,
+        .contrasts = contrasts,
+        .audit = audit,
+        .stated = stated,
+        .exceedance = exact.exceedance(stated.friction_force_n),
+        .iterations_and_error = iterations_and_error(runs, exact.mean()),
+        .floor_n = median_of_column(floor, "friction_force_n")};
 
     std::string markdown = "| | claim | number | verdict on the claim | evidence |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -123,9 +117,16 @@ int main(int argc, char** argv) {
       write_contrast(*contrasts_csv, "natural_frequency_hz", "ratio of areas", contrasts.natural_frequency);
       write_contrast(*contrasts_csv, "iterations", "two-sample deviance", contrasts.iterations);
     }
+    auto statistics_csv = open_csv(statistics_output, {"quantity", "value", "standard_error"});
+    for (const auto& s :
+         replication::claim_statistics(evidence, joint, exact.mean(), exact.standard_deviation())) {
+      if (statistics_csv) {
+        statistics_csv->row(s.quantity, digits(s.value, 8), digits(s.standard_error, 4));
+      }
+    }
     if (markdown_file) {
       markdown_file->write(markdown);
     }
-    io::commit_all(csv, contrasts_csv, markdown_file);
+    io::commit_all(csv, contrasts_csv, statistics_csv, markdown_file);
   });
 }

@@ -1,5 +1,5 @@
 /// \file
-/// Verdicts on the claims C1 to C9 of the paper (data/published/claims.csv), each with its evidence.
+/// Verdicts on the claims C1 to C15 of the paper (data/published/claims.csv), each with its evidence.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 #include "replication/audit.hpp"
 #include "replication/published.hpp"
+#include "replication/run_worth.hpp"
 
 namespace replication {
 
-/// Whether the printed number behind a claim comes out again, and whether the claim is supported, are two things.
+/// How likely the printed number behind a claim is, and whether the claim is borne out, are two things.
 struct JudgedClaim {
-  std::string number;    ///< name_of(Typicality), or why there is no such verdict
+  std::string number;    ///< name_of(Chance), or why there is no such word
   Verdict claim;         ///< on the claim itself
   std::string evidence;  ///< the statistic behind it, as a sentence
 };
@@ -24,16 +25,15 @@ struct Contrasts {
   ContrastVerdict iterations;         ///< two-sample deviance of the counts
 };
 
-/// \param areas  of friction force and natural frequency (parameters 0 and 1) of both samplers, as printed
-/// \param counts  of the first and the second sampler, as printed
+/// \param printed  columns of the first and the second sampler
 /// \param seed  of the bootstrap
-/// \throws errors::InvalidValue unless there are counts of two samplers and both areas of each, and studies of both.
+/// \throws errors::InvalidValue unless there are two columns, and studies of both samplers.
 [[nodiscard]] Contrasts contrast_samplers(const std::vector<StudySummary>& studies,
-                                          const std::vector<PrintedArea>& areas,
-                                          const std::vector<PrintedCounts>& counts, std::uint64_t seed,
+                                          const std::vector<PrintedColumn>& printed, std::uint64_t seed,
                                           const TableDraws& draws = {});
 
-/// C1: the share of studies whose p-boxes hold both stated values; and how likely the posterior makes the stated force.
+/// C1: the share of studies whose p-boxes hold both stated values; and how likely the posterior makes the stated force. Where nearly
+/// every study holds a value that the posterior puts beyond its central 95 %, the claim is true whatever the samplers do.
 /// \param exceedance  P(F_mu > stated force) of the exact posterior
 [[nodiscard]] JudgedClaim judge_enclosure(const std::vector<StudySummary>& studies, const Truth& stated,
                                           double exceedance);
@@ -45,25 +45,58 @@ struct Contrasts {
 /// C5: a cause of worse mixing must make some quantity worse.
 [[nodiscard]] JudgedClaim judge_cause(const Contrasts& contrasts);
 
-/// C6: whether the most frequent number of iterations in Table 4 is the 11 of the text.
-[[nodiscard]] JudgedClaim judge_mode(const std::vector<PrintedCounts>& printed);
+/// C6: whether the most frequent number of iterations in Table 4 is the 11 of the text, or the 10 transitions after beta_0.
+[[nodiscard]] JudgedClaim judge_mode(const std::vector<PrintedColumn>& printed);
 
 /// C7: the likelihood-ratio test of the stated force, with the stated noise.
 /// \param audit  whose first test of the friction force is that of the stated one
 [[nodiscard]] JudgedClaim judge_stated_force(const Audit& audit);
 
+/// C10: whether runs of the first sampler take no more iterations than printed.
+[[nodiscard]] JudgedClaim judge_maximum(const std::vector<StudySummary>& studies,
+                                        const std::vector<PrintedColumn>& printed);
+
+/// C11: whether the runs with more iterations are those with a larger error.
+[[nodiscard]] JudgedClaim judge_iterations_as_evidence(const RankCorrelation& correlation);
+
+/// C12: whether runs vary more than independent draws from the posterior would.
+/// \param area, floor  median p-box areas of the friction force, N: of the studies, and of independent draws
+[[nodiscard]] JudgedClaim judge_variability(double area, double floor);
+
+/// C15: chi^2 of the observations with the stated noise levels.
+[[nodiscard]] JudgedClaim judge_noise(const Audit& audit);
+
 /// Everything that the claims are judged by.
 struct ClaimEvidence {
-  const std::vector<StudySummary>& studies;  ///< replicated studies of both samplers
-  const std::vector<PrintedCounts>& counts;  ///< Table 4 as printed
-  const Contrasts& contrasts;                ///< verdicts on the differences of the samplers
-  const Audit& audit;                        ///< of the observations of Table 1
-  Truth stated;                              ///< values that the paper states
-  double exceedance = 0.0;                   ///< P(F_mu > stated force) of the exact posterior
+  const std::vector<StudySummary>& studies;   ///< replicated studies of both samplers
+  const std::vector<PrintedColumn>& printed;  ///< Tables 3 and 4 as printed
+  const Contrasts& contrasts;                 ///< verdicts on the differences of the samplers
+  const Audit& audit;       ///< of the observations of Table 1, with the exact phase and limit
+  Truth stated;             ///< values that the paper states
+  double exceedance = 0.0;  ///< P(F_mu > stated force) of the exact posterior
+  RankCorrelation
+      iterations_and_error;  ///< over runs: iterations against the distance of the mean from the exact one
+  double floor_n = 0.0;      ///< median p-box area of independent draws, N
 };
 
-/// \param id  "C1" to "C9"
+/// "C1" to "C15", in this order.
+[[nodiscard]] const std::vector<std::string>& claim_ids();
+
+/// \param id  one of claim_ids()
 /// \throws errors::InvalidValue for another one.
 [[nodiscard]] JudgedClaim judge_claim(const std::string& id, const ClaimEvidence& evidence);
+
+/// A number behind the verdicts.
+struct Statistic {
+  std::string quantity;         ///< what it is
+  double value = 0.0;           ///< of the quantity
+  double standard_error = 0.0;  ///< Monte Carlo; NaN where there is none
+};
+
+/// The numbers that the evidence and the report rest on beside the contrasts.
+/// \param joint  tests of the printed tables as a whole
+/// \param exact_mean, exact_sd  of the friction force, N
+[[nodiscard]] std::vector<Statistic> claim_statistics(const ClaimEvidence& evidence, const JointTests& joint,
+                                                      double exact_mean, double exact_sd);
 
 }  // namespace replication

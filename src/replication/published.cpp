@@ -17,6 +17,8 @@ double number(const std::string& printed) {
   return value;
 }
 
+constexpr std::size_t most_studies_in_pairs = 3000;
+
 std::vector<double> areas_of(const std::vector<StudySummary>& studies, std::size_t parameter) {
   std::vector<double> areas;
   for (const auto& s : studies) {
@@ -41,43 +43,40 @@ std::vector<double> iterations_of(const std::vector<StudySummary>& studies) {
   return means;
 }
 
-double log_normal_density(double squared_distance, double log_determinant, double dimension) {
-  constexpr double log_two_pi = 1.8378770664093453;
-  return -0.5 * (squared_distance + log_determinant + dimension * log_two_pi);
+Counts categories_of(const std::vector<PrintedColumn>& columns) {
+  Counts categories;
+  for (const auto& column : columns) {
+    categories.insert(column.counts.begin(), column.counts.end());
+  }
+  return categories;
 }
 
-/// log-density of the logarithms of one or two areas, Normal with the moments of the studies.
-double log_density_of_areas(const std::vector<StudySummary>& studies,
-                            const std::vector<const PrintedArea*>& printed) {
-  std::vector<std::vector<double>> logs(printed.size());
-  std::vector<Moments> m;
-  std::vector<double> deviation;
-  for (std::size_t k = 0; k < printed.size(); ++k) {
-    for (const double area : areas_of(studies, printed[k]->parameter)) {
-      logs[k].push_back(portable_math::log(area));
+/// n log n of a number of runs.
+double x_log_x(std::int64_t n) {
+  const auto x = static_cast<double>(n);
+  return n == 0 ? 0.0 : x * portable_math::log(x);
+}
+
+/// Two-sample deviance of two tables, as in test_two_tables.
+double deviance(const Counts& a, const Counts& b) {
+  Counts both = a;
+  for (const auto& [category, count] : b) {
+    both[category] += count;
+  }
+  const auto entropy = [](const Counts& counts) {
+    double sum = -x_log_x(total_of(counts));
+    for (const auto& cell : counts) {
+      sum += x_log_x(cell.second);
     }
-    m.push_back(moments(logs[k]));
-    deviation.push_back((portable_math::log(number(printed[k]->printed)) - m[k].mean) /
-                        m[k].standard_deviation);
-  }
-  if (printed.size() == 1) {
-    return log_normal_density(deviation[0] * deviation[0], 2.0 * portable_math::log(m[0].standard_deviation),
-                              1.0);
-  }
-  double correlation = 0.0;
-  for (std::size_t i = 0; i < studies.size(); ++i) {
-    correlation += (logs[0][i] - m[0].mean) / m[0].standard_deviation * (logs[1][i] - m[1].mean) /
-                   m[1].standard_deviation;
-  }
-  correlation /= static_cast<double>(studies.size() - 1);
-  const double rest = 1.0 - correlation * correlation;
-  const double distance = (deviation[0] * deviation[0] + deviation[1] * deviation[1] -
-                           2.0 * correlation * deviation[0] * deviation[1]) /
-                          rest;
-  return log_normal_density(
-      distance,
-      2.0 * portable_math::log(m[0].standard_deviation * m[1].standard_deviation) + portable_math::log(rest),
-      2.0);
+    return sum;
+  };
+  return 2.0 * (entropy(a) + entropy(b) - entropy(both));
+}
+
+/// Share of the sorted values that are at least as large, the value itself counted as one.
+double upper_share(const std::vector<double>& sorted, double value) {
+  const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value - 1e-9);
+  return static_cast<double>(above + 1) / static_cast<double>(sorted.size() + 1);
 }
 
 }  // namespace
@@ -108,57 +107,94 @@ double mean_iterations(const Counts& counts) {
   return sum / runs;
 }
 
-PublishedVerdicts judge_tables(const std::vector<StudySummary>& studies,
-                               const std::vector<PrintedArea>& areas,
-                               const std::vector<PrintedCounts>& counts, Null null, const TableDraws& draws) {
-  PublishedVerdicts result;
-  std::vector<PValue> p;
+std::vector<CellVerdict> judge_areas(const std::vector<StudySummary>& studies,
+                                     const std::vector<PrintedArea>& areas, Null null) {
+  std::vector<CellVerdict> cells;
   for (const auto& area : areas) {
     auto sample = areas_of(null_studies(studies, area.sampler, null), area.parameter);
     std::sort(sample.begin(), sample.end());
+    const double half_width = rounding_half_width(area.printed);
     CellVerdict cell;
     cell.sampler = area.sampler;
     cell.parameter = area.parameter;
     cell.printed = number(area.printed);
     cell.median = sample_quantile(sample, 0.5);
-    cell.p = two_sided_p(sample, cell.printed, rounding_half_width(area.printed));
-    cell.interval = central_95(std::move(sample));
-    p.push_back(cell.p);
-    result.areas.push_back(cell);
+    cell.interval = {sample_quantile(sample, 0.025), sample_quantile(sample, 0.975)};
+    cell.percentile = percentile(sample, cell.printed, half_width);
+    cell.p = two_sided_p(sample, cell.printed, half_width);
+    cell.number = judge_number(cell.p);
+    cells.push_back(cell);
   }
-  if (!counts.empty()) {
-    CountsVerdict verdict;
-    std::vector<Counts> printed;
-    std::vector<std::vector<Counts>> replicated;
-    for (const auto& column : counts) {
-      printed.push_back(column.counts);
-      replicated.push_back(counts_of(null_studies(studies, column.sampler, null)));
-      verdict.columns.push_back(test_tables({printed.back()}, {replicated.back()}, draws));
+  return cells;
+}
+
+std::vector<DevianceTest> judge_counts(const std::vector<StudySummary>& studies,
+                                       const std::vector<PrintedCounts>& columns, Null null,
+                                       const TableDraws& draws) {
+  std::vector<DevianceTest> tests;
+  std::vector<Counts> printed;
+  std::vector<std::vector<Counts>> replicated;
+  for (const auto& column : columns) {
+    printed.push_back(column.counts);
+    replicated.push_back(counts_of(null_studies(studies, column.sampler, null)));
+    tests.push_back(test_tables({printed.back()}, {replicated.back()}, draws));
+  }
+  if (null == Null::all_studies) {
+    replicated.resize(1);
+  }
+  tests.push_back(test_tables(printed, replicated, draws));
+  return tests;
+}
+
+std::vector<PrintedColumn> printed_columns(const std::vector<PrintedArea>& areas,
+                                           const std::vector<PrintedCounts>& counts) {
+  std::vector<PrintedColumn> columns;
+  for (const auto& column : counts) {
+    PrintedColumn printed{column.sampler, {}, column.counts};
+    for (const std::size_t parameter : {std::size_t{0}, std::size_t{1}}) {
+      const auto found = std::find_if(areas.begin(), areas.end(), [&](const PrintedArea& a) {
+        return a.sampler == column.sampler && a.parameter == parameter;
+      });
+      if (found == areas.end()) {
+        throw errors::InvalidValue("areas", column.sampler, "the printed areas of both parameters");
+      }
+      printed.areas.push_back(number(found->printed));
     }
-    if (null == Null::all_studies) {
-      replicated.resize(1);
-    }
-    verdict.test = test_tables(printed, replicated, draws);
-    p.push_back(verdict.test.p);
-    result.counts = std::move(verdict);
+    columns.push_back(std::move(printed));
   }
-  const auto adjusted = holm(p);
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    result.areas[i].p_holm = adjusted[i];
-    result.areas[i].number = judge_number(adjusted[i]);
+  return columns;
+}
+
+JointTests test_jointly(const std::vector<StudySummary>& studies, const std::vector<PrintedColumn>& printed,
+                        Null null) {
+  if (printed.size() != 2) {
+    throw errors::InvalidValue("printed", printed.size(), "two columns");
   }
-  if (result.counts) {
-    result.counts->p_holm = adjusted.back();
-    result.counts->number = judge_number(adjusted.back());
+  std::vector<Prediction> predictions;
+  std::vector<LogDensity> densities;
+  for (const auto& column : printed) {
+    predictions.emplace_back(null_studies(studies, column.sampler, null), categories_of(printed));
+    densities.push_back(predictions.back().log_density(column.areas, column.counts));
   }
-  return result;
+  const auto of_pair = [&](double (*part)(const LogDensity&)) {
+    const auto first = scores_of(predictions[0], part);
+    const double sum = part(densities[0]) + part(densities[1]);
+    return null == Null::all_studies ? predictive_p_of_pair(first, sum)
+                                     : predictive_p_of_pair(first, scores_of(predictions[1], part), sum);
+  };
+  const auto both = [](const LogDensity& d) { return d.both(); };
+  return {of_pair([](const LogDensity& d) { return d.areas; }),
+          of_pair([](const LogDensity& d) { return d.counts; }),
+          {predictive_p(scores_of(predictions[0], both), densities[0].both()),
+           predictive_p(scores_of(predictions[1], both), densities[1].both())},
+          of_pair(both)};
 }
 
 Null null_of(const std::vector<StudySummary>& studies, const std::string& first, const std::string& second,
              std::uint64_t seed) {
   const auto a = studies_of(studies, first);
   const auto b = studies_of(studies, second);
-  bool one = median_ratio_equivalence(iterations_of(a), iterations_of(b), iteration_margin, seed).equivalent;
+  bool one = mean_ratio_equivalence(iterations_of(a), iterations_of(b), iteration_margin).equivalent;
   for (const std::size_t parameter : {std::size_t{0}, std::size_t{1}}) {
     one = one && median_ratio_equivalence(areas_of(a, parameter), areas_of(b, parameter), area_margin, seed)
                      .equivalent;
@@ -179,7 +215,7 @@ ContrastVerdict contrast_areas(const std::vector<StudySummary>& studies, const s
 
 ContrastVerdict contrast_iterations(const std::vector<StudySummary>& studies, const Counts& first_printed,
                                     const Counts& second_printed, const std::string& first,
-                                    const std::string& second, std::uint64_t seed, const TableDraws& draws) {
+                                    const std::string& second, const TableDraws& draws) {
   const auto a = studies_of(studies, first);
   const auto b = studies_of(studies, second);
   auto both = counts_of(a);
@@ -187,27 +223,73 @@ ContrastVerdict contrast_iterations(const std::vector<StudySummary>& studies, co
   both.insert(both.end(), of_second.begin(), of_second.end());
   const DevianceTest test = test_two_tables(first_printed, second_printed, both, draws);
   return {test.statistic, test.interval, test.p,
-          median_ratio_equivalence(iterations_of(a), iterations_of(b), iteration_margin, seed)};
+          mean_ratio_equivalence(iterations_of(a), iterations_of(b), iteration_margin)};
+}
+
+PValue combined_contrast(const std::vector<StudySummary>& studies, double ratio, const Counts& first,
+                         const Counts& second) {
+  const std::size_t n = std::min(studies.size(), most_studies_in_pairs);
+  if (n < 2 || !(ratio > 0.0)) {
+    throw errors::InvalidValue("studies and ratio", n, "at least two studies, and a positive ratio");
+  }
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < n; ++i) {
+    logs.push_back(portable_math::log(studies[i].areas.at(0)));
+  }
+  std::map<Counts, std::size_t> index;  // few tables differ
+  std::vector<std::size_t> table;
+  for (const auto& counts : counts_of({studies.begin(), studies.begin() + static_cast<std::ptrdiff_t>(n)})) {
+    table.push_back(index.try_emplace(counts, index.size()).first->second);
+  }
+  std::vector<std::vector<double>> deviances(index.size(), std::vector<double>(index.size()));
+  for (const auto& [a, i] : index) {
+    for (const auto& [b, j] : index) {
+      deviances[i][j] = deviance(a, b);
+    }
+  }
+  std::vector<double> ratios, differences;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      ratios.push_back(std::fabs(logs[i] - logs[j]));
+      differences.push_back(deviances[table[i]][table[j]]);
+    }
+  }
+  std::sort(ratios.begin(), ratios.end());
+  std::sort(differences.begin(), differences.end());
+  for (auto& row : deviances) {  // from here on their upper shares
+    for (double& d : row) {
+      d = upper_share(differences, d);
+    }
+  }
+  const double printed = upper_share(ratios, std::fabs(portable_math::log(ratio))) *
+                         upper_share(differences, deviance(first, second));
+  std::vector<double> shares(n, 0.0);
+  double pairs = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double of_counts = deviances[table[i]][table[j]];
+      if (of_counts <= printed ||
+          of_counts * upper_share(ratios, std::fabs(logs[i] - logs[j])) <= printed * (1.0 + 1e-12)) {
+        shares[i] += 1.0;
+        shares[j] += 1.0;
+        pairs += 1.0;
+      }
+    }
+  }
+  const auto all = static_cast<double>(ratios.size());
+  for (double& share : shares) {
+    share /= static_cast<double>(n - 1);
+  }
+  const double error = 2.0 * moments(shares).standard_deviation / std::sqrt(static_cast<double>(n));
+  return {(pairs + 1.0) / (all + 1.0), pairs > 0.0 ? error : 2.0 / static_cast<double>(n)};
 }
 
 double log_likelihood_of_tables(const std::vector<StudySummary>& studies,
-                                const std::vector<PrintedArea>& areas,
-                                const std::vector<PrintedCounts>& counts, Null null) {
+                                const std::vector<PrintedColumn>& printed, Null null) {
   double sum = 0.0;
-  for (const auto& column : counts) {
-    const auto of_sampler = null_studies(studies, column.sampler, null);
-    sum += log_multinomial(column.counts, category_probabilities(counts_of(of_sampler), column.counts));
-    std::vector<const PrintedArea*> printed;
-    for (const auto& area : areas) {
-      if (area.sampler == column.sampler) {
-        printed.push_back(&area);
-      }
-    }
-    if (of_sampler.size() < 3 || printed.empty() || printed.size() > 2) {
-      throw errors::InvalidValue("sampler", column.sampler,
-                                 "one or two printed areas and at least 3 studies");
-    }
-    sum += log_density_of_areas(of_sampler, printed);
+  for (const auto& column : printed) {
+    const Prediction prediction(null_studies(studies, column.sampler, null), categories_of(printed));
+    sum += prediction.log_density(column.areas, column.counts).both();
   }
   return sum;
 }

@@ -40,6 +40,13 @@ tmcmc::Problem problem(const Reading& reading, const friction::Observations& obs
   return {friction::Likelihood(observations, reading.physics, reading.infeasible_log_likelihood), prior};
 }
 
+friction::Physics with_exact_rules(friction::Physics physics) {
+  const auto exact = reading(ReadingName::corrected).physics;
+  physics.limit = exact.limit;
+  physics.phase = exact.phase;
+  return physics;
+}
+
 const std::vector<std::string>& reading_names() {
   static const std::vector<std::string> names = {"as_published", "as_worded", "corrected"};
   return names;

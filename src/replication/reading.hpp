@@ -38,6 +38,9 @@ enum class ReadingName {
 [[nodiscard]] tmcmc::Problem problem(const Reading& reading, const friction::Observations& observations,
                                      const tmcmc::BoxPrior& prior);
 
+/// The same rig with the limit and the phase of the corrected reading.
+[[nodiscard]] friction::Physics with_exact_rules(friction::Physics physics);
+
 /// Names as used on command lines, in the order of ReadingName.
 [[nodiscard]] const std::vector<std::string>& reading_names();
 

@@ -36,38 +36,55 @@ double rounding_half_width(const std::string& printed) {
 }
 
 const std::string& name_of(Verdict verdict) {
-  static const std::vector<std::string> names = {
-      "reproduced",   "consistent with chance",   "not supported",
-      "contradicted", "internally contradictory", "cannot be tested",
-      "undecided"};
+  static const std::vector<std::string> names = {"holds",
+                                                 "true, and uninformative",
+                                                 "holds in part",
+                                                 "not supported",
+                                                 "does not follow",
+                                                 "contradicted",
+                                                 "not rejected",
+                                                 "off by one?",
+                                                 "internally contradictory",
+                                                 "cannot be tested"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
-const std::string& name_of(Typicality typicality) {
-  static const std::vector<std::string> names = {"reproduced", "untypical", "not reproduced", "undecided"};
-  return names[static_cast<std::size_t>(typicality)];
+const std::string& name_of(Compatibility compatibility) {
+  static const std::vector<std::string> names = {"compatible", "not compatible", "undecided"};
+  return names[static_cast<std::size_t>(compatibility)];
 }
 
-Typicality judge_number(const PValue& p) {
+Compatibility judge_number(const PValue& p) {
+  const double error = monte_carlo_error_95(p);
+  if (p.value - error >= strict_significance) {
+    return Compatibility::compatible;
+  }
+  return p.value + error < strict_significance ? Compatibility::not_compatible : Compatibility::undecided;
+}
+
+const std::string& name_of(Chance chance) {
+  static const std::vector<std::string> names = {"ordinary by chance", "unlikely by chance",
+                                                 "very unlikely by chance", "undecided"};
+  return names[static_cast<std::size_t>(chance)];
+}
+
+Chance judge_chance(const PValue& p) {
   const double error = monte_carlo_error_95(p);
   if (p.value - error >= significance_level) {
-    return Typicality::reproduced;
+    return Chance::ordinary;
   }
   if (p.value + error < strict_significance) {
-    return Typicality::not_reproduced;
+    return Chance::very_unlikely;
   }
-  return p.value + error < significance_level ? Typicality::untypical : Typicality::undecided;
+  return p.value + error < significance_level ? Chance::unlikely : Chance::undecided;
 }
 
-Verdict judge_contrast(const PValue& printed, const Equivalence& replicated) {
+Verdict judge_contrast(const Equivalence& replicated) {
   if (replicated.equivalent) {
-    if (std::fabs(printed.value - significance_level) <= monte_carlo_error_95(printed)) {
-      return Verdict::undecided;
-    }
-    return printed.value >= significance_level ? Verdict::consistent_with_chance : Verdict::not_supported;
+    return Verdict::contradicted;
   }
   if (replicated.different) {
-    return replicated.ratio > 1.0 ? Verdict::reproduced : Verdict::contradicted;
+    return replicated.ratio > 1.0 ? Verdict::holds : Verdict::contradicted;
   }
   return Verdict::not_supported;
 }

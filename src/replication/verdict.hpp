@@ -15,7 +15,9 @@ using statistics::central_95;
 using statistics::Equivalence;
 using statistics::holm;
 using statistics::Interval95;
+using statistics::mean_ratio_equivalence;
 using statistics::median_ratio_equivalence;
+using statistics::percentile;
 using statistics::PValue;
 using statistics::RatioTest;
 using statistics::sample_quantile;
@@ -27,48 +29,62 @@ using statistics::upper_p;
 /// \throws errors::InvalidValue unless the text is a decimal number.
 [[nodiscard]] double rounding_half_width(const std::string& printed);
 
-/// What the evidence says of a printed number or a claim.
+/// What the evidence says of a claim.
 enum class Verdict {
-  reproduced,                ///< it comes out again
-  consistent_with_chance,    ///< the printed contrast is one that equal samplers show by chance
-  not_supported,             ///< what was printed does not carry the claim
+  holds,                     ///< the claim is borne out
+  true_and_uninformative,    ///< it is true, and would be so whatever the samplers did
+  holds_in_part,             ///< a part of it is borne out
+  not_supported,             ///< the samplers are neither equivalent nor different
+  does_not_follow,           ///< what it is inferred from does not carry it
   contradicted,              ///< the evidence says otherwise
+  not_rejected,              ///< a test of it, which could have failed, does not reject it
+  off_by_one,                ///< two counts of the same thing, perhaps from 0 and from 1
   internally_contradictory,  ///< the paper's own numbers say otherwise
-  cannot_be_tested,
-  undecided  ///< a bound lies within the Monte Carlo error: more studies would decide
+  cannot_be_tested           ///< with what is public
 };
 
-/// "reproduced", "consistent with chance", ...
+/// "holds", "true, and uninformative", ...
 [[nodiscard]] const std::string& name_of(Verdict verdict);
 
-/// Below it, a number is untypical of the null.
-constexpr double significance_level = 0.05;
-/// Below it, a number is not reproduced.
+/// Below it, a printed number is not compatible with the sampler, and a contrast very unlikely by chance.
 constexpr double strict_significance = 0.01;
+/// Below it, a contrast is unlikely by chance.
+constexpr double significance_level = 0.05;
 
-/// What the 95 % Monte Carlo interval p +- 1.96 standard errors of a p-value says of a printed number.
-enum class Typicality {
-  reproduced,      ///< all of it is 0.05 or more: a number that repetitions of the study give
-  untypical,       ///< all of it is below 0.05, but not below 0.01
-  not_reproduced,  ///< all of it is below 0.01
-  undecided        ///< it holds 0.05: more studies would decide
+// The bounds are Fisher's conventional 5 % and 1 %; they were set after the first results existed. A p-value by simulation falls on
+// either side of a bound that is close, by chance. Hence its 95 % Monte Carlo interval, p +- 1.96 standard errors, decides and not
+// the value (as do Gandy, Hahn and Ding 2020): a word needs the whole of it, so that no verdict is an accident of the seed.
+
+/// Whether a printed number, or several together, can be one that the sampler makes.
+enum class Compatibility {
+  compatible,      ///< all of the interval is 0.01 or more
+  not_compatible,  ///< all of it is below 0.01
+  undecided        ///< it holds 0.01: more studies would decide
 };
 
-/// "reproduced", "untypical", "not reproduced", "undecided".
-[[nodiscard]] const std::string& name_of(Typicality typicality);
+/// "compatible", "not compatible", "undecided".
+[[nodiscard]] const std::string& name_of(Compatibility compatibility);
 
-/// \param p  adjusted by Holm over all numbers that are judged together; a claim of its own is not adjusted
-///
-/// The bounds are Fisher's conventional 5 % and 1 %, whatever numbers are judged. A p-value by simulation falls on either
-/// side of a bound that is close, by chance. Hence the interval decides and not the value (as do Gandy, Hahn and Ding
-/// 2020), and a stronger word needs the whole of it, so that no verdict is an accident of the seed. "Not reproduced" needs
-/// many draws: with none of n beyond the number, two-sided p is 2/(n+1) with an error as large.
-[[nodiscard]] Typicality judge_number(const PValue& p);
+/// \param p  not adjusted for other numbers: an adjustment would make compatibility easier
+[[nodiscard]] Compatibility judge_number(const PValue& p);
 
-/// A claim that one sampler's quantity is larger, by the contrast as printed (its p-value if both samplers are one) and
-/// by the replicated medians. A real difference the way that is claimed: reproduced; the other way: contradicted. None,
-/// and the samplers equivalent: consistent with chance if the printed contrast is (p of 0.05 and more), else not
-/// supported; undecided if the Monte Carlo interval of p, as in judge_number, holds 0.05. Else not supported.
-[[nodiscard]] Verdict judge_contrast(const PValue& printed, const Equivalence& replicated);
+/// How likely a contrast as printed is by chance, between two studies of one sampler.
+enum class Chance {
+  ordinary,       ///< all of the interval is 0.05 or more
+  unlikely,       ///< all of it is below 0.05, but not below 0.01
+  very_unlikely,  ///< all of it is below 0.01
+  undecided       ///< it holds 0.05: more studies would decide
+};
+
+/// "ordinary by chance", "unlikely by chance", "very unlikely by chance", "undecided".
+[[nodiscard]] const std::string& name_of(Chance chance);
+
+/// \param p  of the contrast if both samplers are one
+[[nodiscard]] Chance judge_chance(const PValue& p);
+
+/// A claim that one sampler's quantity is larger, by the replicated studies of both: holds if they differ the way that is claimed;
+/// contradicted if they differ the other way or are equivalent; else not supported. How likely the printed contrast is by chance is
+/// another question: see judge_chance.
+[[nodiscard]] Verdict judge_contrast(const Equivalence& replicated);
 
 }  // namespace replication

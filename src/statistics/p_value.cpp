@@ -28,6 +28,20 @@ double median(std::vector<double>& values) {
                                 : *middle - 0.5 * (*middle - *std::max_element(values.begin(), middle));
 }
 
+void require_positive(std::span<const double> values, std::size_t least) {
+  if (values.size() < least ||
+      std::any_of(values.begin(), values.end(), [](double x) { return !(x > 0.0); })) {
+    throw errors::InvalidValue(
+        "sample", values.size(),
+        least == 1 ? "at least one number, and all positive" : "at least two numbers, and all positive");
+  }
+}
+
+Equivalence equivalence(double ratio, const Interval95& interval, double margin) {
+  return {ratio, interval, margin, interval.low >= 1.0 / (1.0 + margin) && interval.high <= 1.0 + margin,
+          interval.low > 1.0 || interval.high < 1.0};
+}
+
 }  // namespace
 
 PValue upper_p(std::span<const double> null, double value, double half_width) {
@@ -43,6 +57,12 @@ PValue two_sided_p(std::span<const double> null, double value, double half_width
              null.size());
   const double tail = std::min(lower, upper_p(null, value, half_width).value);
   return {std::min(1.0, 2.0 * tail), 2.0 * binomial_error(tail, static_cast<double>(null.size() + 1))};
+}
+
+double percentile(std::span<const double> null, double value, double half_width) {
+  return 100.0 *
+         tail_p(std::count_if(null.begin(), null.end(), [=](double x) { return x <= value + half_width; }),
+                null.size());
 }
 
 RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio) {
@@ -103,18 +123,11 @@ std::vector<PValue> holm(const std::vector<PValue>& p) {
 
 Equivalence median_ratio_equivalence(std::span<const double> first, std::span<const double> second,
                                      double margin, std::uint64_t seed, int resamples) {
-  const auto check = [](std::span<const double> values) {
-    if (values.empty() || std::any_of(values.begin(), values.end(), [](double x) { return !(x > 0.0); })) {
-      throw errors::InvalidValue("sample", "", "at least one number, and all positive");
-    }
-  };
-  check(first);
-  check(second);
+  require_positive(first, 1);
+  require_positive(second, 1);
   std::vector<double> a(first.begin(), first.end());
   std::vector<double> b(second.begin(), second.end());
-  Equivalence result{};
-  result.margin = margin;
-  result.ratio = median(b) / median(a);
+  const double ratio = median(b) / median(a);
   std::vector<double> ratios;
   const auto resample = [&](std::span<const double> source, std::vector<double>& target, std::uint32_t round,
                             std::uint32_t arm) {
@@ -131,10 +144,23 @@ Equivalence median_ratio_equivalence(std::span<const double> first, std::span<co
     const double below = resample(first, a, static_cast<std::uint32_t>(round), 0);
     ratios.push_back(resample(second, b, static_cast<std::uint32_t>(round), 1) / below);
   }
-  result.interval = central_95(std::move(ratios));
-  result.equivalent = result.interval.low >= 1.0 / (1.0 + margin) && result.interval.high <= 1.0 + margin;
-  result.different = result.interval.low > 1.0 || result.interval.high < 1.0;
-  return result;
+  return equivalence(ratio, central_95(std::move(ratios)), margin);
+}
+
+Equivalence mean_ratio_equivalence(std::span<const double> first, std::span<const double> second,
+                                   double margin) {
+  require_positive(first, 2);
+  require_positive(second, 2);
+  const auto relative_variance = [](const Moments& m, std::size_t n) {
+    const double relative = m.standard_deviation / m.mean;
+    return relative * relative / static_cast<double>(n);
+  };
+  const Moments a = moments(first);
+  const Moments b = moments(second);
+  const double ratio = b.mean / a.mean;
+  const double half =
+      1.96 * ratio * std::sqrt(relative_variance(a, first.size()) + relative_variance(b, second.size()));
+  return equivalence(ratio, {ratio - half, ratio + half}, margin);
 }
 
 }  // namespace statistics

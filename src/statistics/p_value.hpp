@@ -25,6 +25,11 @@ struct PValue {
 /// One-sided: the probability of a draw at least as large.
 [[nodiscard]] PValue upper_p(std::span<const double> null, double value, double half_width = 0.0);
 
+/// Percentile of a value among the null: 100 times the share of the draws that are at most as large, rounding and the value itself
+/// counted as in two_sided_p.
+/// \param half_width  rounding of the value, see rounding_half_width
+[[nodiscard]] double percentile(std::span<const double> null, double value, double half_width = 0.0);
+
 /// A ratio of two independent draws from one distribution, in the null distribution that sample gives it.
 struct RatioTest {
   Interval95 interval{};  ///< central 95 % of the ratios of all ordered pairs
@@ -38,19 +43,26 @@ struct RatioTest {
 /// Holm's (1979) step-down adjustment of p-values, in the order given; standard errors are multiplied as the values are.
 [[nodiscard]] std::vector<PValue> holm(const std::vector<PValue>& p);
 
-/// Equivalence of two samples of positive numbers by the ratio of their medians.
+/// Equivalence of two samples of positive numbers by a ratio: of their medians or means. The interval is two-sided, 95 %: a test of
+/// equivalence at 2.5 % a side.
 struct Equivalence {
-  double ratio;         ///< median(second) / median(first)
-  Interval95 interval;  ///< 95 % bootstrap percentile interval
+  double ratio;         ///< second over first
+  Interval95 interval;  ///< 95 %, see the function
   double margin;        ///< 0.10 for 10 %
   bool equivalent;      ///< the interval lies within [1/(1 + margin), 1 + margin]
   bool different;       ///< the interval does not hold 1
 };
 
+/// Ratio of medians, with a bootstrap percentile interval.
 /// \param seed  of the bootstrap (resamples of each sample, `resamples` times)
 /// \throws errors::InvalidValue for an empty sample or a number that is not positive.
 [[nodiscard]] Equivalence median_ratio_equivalence(std::span<const double> first,
                                                    std::span<const double> second, double margin,
                                                    std::uint64_t seed, int resamples = 2000);
+
+/// Ratio of means, with a Normal interval (delta method).
+/// \throws errors::InvalidValue for fewer than two numbers or one that is not positive.
+[[nodiscard]] Equivalence mean_ratio_equivalence(std::span<const double> first,
+                                                 std::span<const double> second, double margin);
 
 }  // namespace statistics

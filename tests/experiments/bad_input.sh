@@ -133,7 +133,7 @@ head -7 "$source/data/generated/replicated_study.csv" >studies.csv
 head -4 "$source/data/generated/sampling_study_stages.csv" >stages.csv
 head -4 "$source/data/generated/sampling_study_runs.csv" >runs.csv
 mkdir data/generated
-cp "$source"/data/generated/{table1_observations,table3_pbox_area,table4_iteration_counts}.csv data/generated
+cp "$source"/data/generated/{table1_observations,table3_pbox_area,table4_iteration_counts,sampling_study_runs,pbox_floor}.csv data/generated
 table3=data/published/table3_pbox_area.csv
 table4=data/published/table4_iteration_counts.csv
 
@@ -191,13 +191,20 @@ ROWS
 done
 
 sed 3d data/published/claims.csv >edited.csv
-expect_error 2 "edited.csv: column 'id': no row 'C2': expected one row for each of C1 to C9" \
+expect_error 2 "edited.csv: column 'id': no row 'C2': expected one row for each of C1 to C15" \
   "$bin/verdicts" --replicated studies.csv --claims edited.csv --output out.csv
 refuse --claims "$bin/verdicts" --replicated studies.csv --output out.csv <<'ROWS'
 data/published/claims.csv|3|id|C1|each claim once
-data/published/claims.csv|3|id|C10|one of C1 to C9
+data/published/claims.csv|3|id|C16|one of C1 to C15
 ROWS
 
+refuse --runs-input "$bin/verdicts" --replicated studies.csv --output out.csv <<'ROWS'
+data/generated/sampling_study_runs.csv|2|iterations|0|a whole number of at least 1
+data/generated/sampling_study_runs.csv|3|run|0|each run once a sampler
+ROWS
+refuse --floor "$bin/verdicts" --replicated studies.csv --output out.csv <<'ROWS'
+data/generated/pbox_floor.csv|2|friction_force_n|0|a positive number
+ROWS
 refuse --prior "$bin/verdicts" --replicated studies.csv --output out.csv <<'ROWS'
 data/published/table2_prior.csv|3|lower|0|a positive number
 data/published/table2_prior.csv|2|lower|8|less than 1.5

@@ -7,7 +7,7 @@ near() { check "$1: $2, expected $3 +- $4" awk -v x="$2" -v e="$3" -v t="$4" 'BE
 # cell FILE COLUMN KEY [KEY2]: the column of the row whose first cell (and second) are these.
 cell() {
   awk -F, -v column="$2" -v key="$3" -v key2="${4-}" 'NR==1 {for (i=1; i<=NF; i++) at[$i]=i; next}
-    $1==key && (key2=="" || $2==key2) {print $at[column]}' "$1"
+    $1==key && (key2=="" || $2==key2) {print $at[column]; exit}' "$1"
 }
 
 # Table 1: computed twice elsewhere, by independent quadratures; natural frequency and log-evidence with the prior as
@@ -174,9 +174,11 @@ check "p of the stated truth" awk -v p="$(cell audit_summary.csv chi_squared_p f
 for rows in 1 2 3; do
   head -n $((rows + 1)) data/published/table1_observations.csv >few.csv
   "$bin/table1_observations" --observations few.csv --quiet --audit-output few_audit.csv --audit-summary-output few_summary.csv
-  check "audit of $rows rows" test "$(wc -l <few_audit.csv) $(wc -l <few_summary.csv)" = "$((rows + 1)) 6"
+  check "audit of $rows rows" test "$(wc -l <few_audit.csv) $(wc -l <few_summary.csv)" = "$((rows + 1)) 11"
   check "noise unknown needs two rows" test "$(cell few_summary.csv f_p friction_force_n 'stated truth' | grep -c nan)" = \
     $((rows == 1))
 done
+near "exact physics, whatever the reading" "$("$bin/table1_observations" --quiet --audit-summary-output - |
+  awk -F, '$1 == "friction_force_n" && $2 == "stated truth" && $NF == "exact" {print $6}')" 46.195 0.001
 expect_error 2 '--audit-summary-output' "$bin/table1_observations" --phase-noise 0 --audit-summary-output s.csv
 finish

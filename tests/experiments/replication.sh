@@ -66,14 +66,17 @@ expect_error 2 'missing/out.csv' $study --studies 2 --output missing/out.csv
 
 # Verdicts: a printed number moved out of its interval flips; N/4 is not N/2.
 mkdir -p data/generated
+"$bin/sampling_study" --runs 20 --samples 200 --quiet --runs-output runs.csv
+"$bin/pbox_floor" --runs 20 --samples 200 --studies 5 --quiet --output floor.csv
 "$bin/replicated_study" --runs 20 --samples 200 --studies 40 --quiet --output null.csv
 "$bin/replicated_study" --runs 20 --samples 200 --studies 40 --ess-fraction 0.25 --quiet --output quarter.csv
 verdict() {  # CLAIM REPLICATED TABLE3
-  "$bin/verdicts" --replicated "$2" --table3 "$3" --quiet --output - | awk -F, -v id="$1" '$1 == id' | grep -oE 'reproduced|consistent with chance|not supported|contradicted|internally contradictory|cannot be tested' | tail -1
+  "$bin/verdicts" --replicated "$2" --table3 "$3" --runs-input runs.csv --floor floor.csv --quiet --markdown-output words.md >/dev/null
+  awk -F ' [|] ' -v id="| $1" '$1 == id {print $4}' words.md
 }
 table3=data/published/table3_pbox_area.csv
-check "N/2 against CoV = 1 is one algorithm in iterations" test "$(verdict C4 null.csv $table3)" != contradicted
-check "N/4 takes fewer iterations" test "$(verdict C4 quarter.csv $table3)" = contradicted
+check "N/2 against CoV = 1 takes no fewer iterations" test "$(verdict C4 null.csv $table3)" != "**contradicted**"
+check "N/4 takes fewer iterations" test "$(verdict C4 quarter.csv $table3)" = "**contradicted**"
 compared() { "$bin/fig9_null_distributions" --replicated null.csv --table3 "$1" --quiet --printed-output - | awk -F, '$1 == "TMCMC" && $2 == "friction_force_n" {print $6}'; }
 median=$("$bin/fig9_null_distributions" --replicated null.csv --quiet --output - | awk -F, '$1 == "TMCMC" && $2 == "friction_force_n" {print $3}' | sort -g | sed -n 20p)
 sed "s/^TMCMC,0.08151/TMCMC,$median/" $table3 >median.csv
@@ -83,10 +86,10 @@ check "a moved number is not" awk -v p="$(compared moved.csv)" 'BEGIN {exit !(p 
 
 # Few studies decide less, but another seed never says the opposite.
 "$bin/replicated_study" --runs 20 --samples 200 --studies 40 --seed 2 --quiet --output seed2.csv
-words() { "$bin/verdicts" --replicated "$1" --quiet --markdown-output words.md >/dev/null; awk -F ' [|] ' 'FNR > 2 {print $3 "|" $4}' words.md; }
+words() { "$bin/verdicts" --replicated "$1" --runs-input runs.csv --floor floor.csv --quiet --markdown-output words.md >/dev/null; awk -F ' [|] ' 'FNR > 2 {print $3 "|" $4}' words.md; }
 check "verdicts with another seed" awk -F '|' '
   function other(a, b) { return a != b && a !~ /undecided/ && b !~ /undecided/ }
-  { if (other($1, $3) || other($2, $4)) bad = 1; n++ } END {exit bad || n != 9}' <(paste -d '|' <(words null.csv) <(words seed2.csv))
+  { if (other($1, $3) || other($2, $4)) bad = 1; n++ } END {exit bad || n != 15}' <(paste -d '|' <(words null.csv) <(words seed2.csv))
 
 # The printed iteration table: that of one of the studies is typical, and all runs in another category is not.
 mkdir -p typical moved
@@ -98,8 +101,8 @@ printf 'iterations,TMCMC,TMCMC-II\n30,20,20\n' >moved/table4_iteration_counts.cs
 table4_verdict() {
   "$bin/compare_published" --published "$1" --table1 "$1/table1_observations.csv" --table3 "$1/table3_pbox_area.csv" \
     --table4 "$1/table4_iteration_counts.csv" --replicated null.csv --quiet --output - |
-    awk -F, '$1 == "Table 4" {print $NF}' | tr -d '"' | sort -u
+    awk -F, '$1 == "joint" && $2 == "counts" {print $NF}' | tr -d '"' 
 }
-check "a replicated iteration table" test "$(table4_verdict typical)" = reproduced
-check "a moved iteration table" test "$(table4_verdict moved)" = "not reproduced"
+check "a replicated iteration table" test "$(table4_verdict typical)" = compatible
+check "a moved iteration table" test "$(table4_verdict moved)" != compatible
 finish

@@ -40,6 +40,7 @@ make_small_inputs() {
   "$bin/table3_pbox_area" --quiet --output $made/table3_pbox_area.csv
   "$bin/table4_iteration_counts" --quiet --output $made/table4_iteration_counts.csv
   "$bin/table1_observations" --quiet --output $made/table1_observations.csv
+  "$bin/pbox_floor" $small --studies 3 --quiet --output $made/pbox_floor.csv
   "$bin/replicated_study" $small --studies 4 --quiet --output $made/replicated_study.csv
   printf '%s\n' friction_force_n,natural_frequency_hz,phase_noise_deg,frequency_ratio_noise,frequency_ratio \
     0.5,3,2,0.02,0.8 >points.csv

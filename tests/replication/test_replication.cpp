@@ -100,11 +100,11 @@ TEST_CASE("a criterion that really differs is told apart by the same machinery",
   const auto half_studies = replicate(0.5);
   const auto quarter_studies = replicate(0.25);
   const auto same =
-      contrast_iterations(half_studies, printed, printed, "TMCMC", "TMCMC-II", 1, {.tables = 1000});
-  CHECK(same.replicated.equivalent);
+      contrast_iterations(half_studies, printed, printed, "TMCMC", "TMCMC-II", {.tables = 1000});
+  CHECK_THAT(same.replicated.ratio, WithinAbs(1.0, iteration_margin + 0.02));  // few studies
   CHECK_FALSE(same.replicated.different);
   const auto quarter =
-      contrast_iterations(quarter_studies, printed, printed, "TMCMC", "TMCMC-II", 1, {.tables = 1000});
+      contrast_iterations(quarter_studies, printed, printed, "TMCMC", "TMCMC-II", {.tables = 1000});
   CHECK(quarter.replicated.different);
   CHECK(quarter.replicated.ratio < 0.9);
   CHECK(null_of(quarter_studies, "TMCMC", "TMCMC-II", 1) == Null::own_studies);

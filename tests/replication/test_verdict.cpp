@@ -49,22 +49,25 @@ TEST_CASE("half a unit of the last printed digit", "[verdict]") {
   CHECK_THROWS_WITH(rounding_half_width("1.5x"), Contains("= 1.5x:"));
 }
 
-TEST_CASE("words for numbers, with bounds at 5 % and 1 %", "[verdict]") {
-  CHECK(judge_number({0.5, 0.01}) == Typicality::reproduced);
-  CHECK(judge_number({0.05, 0.0}) == Typicality::reproduced);
-  CHECK(judge_number({0.0499, 0.0}) == Typicality::untypical);
-  CHECK(judge_number({0.01, 0.0}) == Typicality::untypical);
-  CHECK(judge_number({0.0099, 0.0}) == Typicality::not_reproduced);
-  CHECK(judge_number({0.0, 0.004}) == Typicality::not_reproduced);
-  CHECK(judge_number({0.0, 0.006}) == Typicality::untypical);
-  CHECK(judge_number({0.0480, 0.001}) == Typicality::untypical);
-  CHECK(judge_number({0.0481, 0.001}) == Typicality::undecided);
-  CHECK(judge_number({0.0519, 0.001}) == Typicality::undecided);
-  CHECK(judge_number({0.0520, 0.001}) == Typicality::reproduced);
-  CHECK(judge_number({0.0081, 0.001}) == Typicality::untypical);
-  CHECK(judge_number({0.0080, 0.001}) == Typicality::not_reproduced);
-  CHECK(name_of(Typicality::not_reproduced) == "not reproduced");
-  CHECK(name_of(Typicality::undecided) == "undecided");
+TEST_CASE("words for numbers and contrasts, with bounds at 5 % and 1 %", "[verdict]") {
+  CHECK(judge_number({0.01, 0.0}) == Compatibility::compatible);
+  CHECK(judge_number({0.0099, 0.0}) == Compatibility::not_compatible);
+  CHECK(judge_number({0.0119, 0.001}) == Compatibility::undecided);
+  CHECK(judge_number({0.0120, 0.001}) == Compatibility::compatible);
+  CHECK(judge_number({0.0081, 0.001}) == Compatibility::undecided);
+  CHECK(judge_number({0.0080, 0.001}) == Compatibility::not_compatible);
+  CHECK(name_of(Compatibility::not_compatible) == "not compatible");
+  CHECK(judge_chance({0.05, 0.0}) == Chance::ordinary);
+  CHECK(judge_chance({0.0499, 0.0}) == Chance::unlikely);
+  CHECK(judge_chance({0.01, 0.0}) == Chance::unlikely);
+  CHECK(judge_chance({0.0099, 0.0}) == Chance::very_unlikely);
+  CHECK(judge_chance({0.0, 0.006}) == Chance::unlikely);
+  CHECK(judge_chance({0.0480, 0.001}) == Chance::unlikely);
+  CHECK(judge_chance({0.0481, 0.001}) == Chance::undecided);
+  CHECK(judge_chance({0.0519, 0.001}) == Chance::undecided);
+  CHECK(judge_chance({0.0520, 0.001}) == Chance::ordinary);
+  CHECK(name_of(Chance::very_unlikely) == "very unlikely by chance");
+  CHECK(name_of(Chance::undecided) == "undecided");
 }
 
 TEST_CASE("a number on a bound is undecided, whatever the seed; one far from it never", "[verdict]") {
@@ -77,9 +80,9 @@ TEST_CASE("a number on a bound is undecided, whatever the seed; one far from it 
       null.push_back(tmcmc::uniform_open(tmcmc::random_words({.seed = static_cast<std::uint64_t>(seed)},
                                                              {.row = static_cast<std::uint64_t>(i)})[0]));
     }
-    undecided += judge_number(two_sided_p(null, 0.025)) == Typicality::undecided ? 1 : 0;
-    far_undecided += judge_number(two_sided_p(null, 0.06)) == Typicality::undecided ? 1 : 0;
-    CHECK(judge_number(two_sided_p(null, 0.2)) == Typicality::reproduced);
+    undecided += judge_chance(two_sided_p(null, 0.025)) == Chance::undecided ? 1 : 0;
+    far_undecided += judge_chance(two_sided_p(null, 0.06)) == Chance::undecided ? 1 : 0;
+    CHECK(judge_chance(two_sided_p(null, 0.2)) == Chance::ordinary);
   }
   // 95 % intervals hold the bound in 95 % of the seeds
   CHECK_THAT(undecided, WithinAbs(0.95 * seeds, 4.0 * std::sqrt(seeds * 0.95 * 0.05)));
@@ -89,49 +92,49 @@ TEST_CASE("a number on a bound is undecided, whatever the seed; one far from it 
 TEST_CASE("verdicts on contrasts", "[verdict]") {
   Equivalence e{};
   e.equivalent = true;
-  CHECK(judge_contrast({0.5, 0.01}, e) == Verdict::consistent_with_chance);
-  CHECK(judge_contrast({0.01, 0.01}, e) == Verdict::not_supported);
-  CHECK(judge_contrast({0.04, 0.006}, e) == Verdict::undecided);
-  CHECK(judge_contrast({0.06, 0.006}, e) == Verdict::undecided);
+  CHECK(judge_contrast(e) == Verdict::contradicted);
   e.equivalent = false;
   e.different = true;
   e.ratio = 1.5;
-  CHECK(judge_contrast({0.01, 0.0}, e) == Verdict::reproduced);
+  CHECK(judge_contrast(e) == Verdict::holds);
   e.ratio = 0.5;
-  CHECK(judge_contrast({0.01, 0.0}, e) == Verdict::contradicted);
+  CHECK(judge_contrast(e) == Verdict::contradicted);
   e.different = false;
-  CHECK(judge_contrast({0.5, 0.0}, e) == Verdict::not_supported);
+  CHECK(judge_contrast(e) == Verdict::not_supported);
   CHECK(name_of(Verdict::internally_contradictory) == "internally contradictory");
-  CHECK(name_of(Verdict::undecided) == "undecided");
+  CHECK(name_of(Verdict::cannot_be_tested) == "cannot be tested");
+  CHECK(name_of(Verdict::true_and_uninformative) == "true, and uninformative");
 }
 
-TEST_CASE("a printed number that is moved out of its interval flips the verdict", "[verdict]") {
+TEST_CASE("a printed number that is moved out of its interval flips the word", "[verdict]") {
   const std::map<tmcmc::Index, tmcmc::Index> counts = {{9, 2}, {10, 44}, {11, 4}};
   const auto studies = synthetic(400, 1.0, counts);
   const std::vector<PrintedCounts> good_counts = {{"A", {{9, 2}, {10, 44}, {11, 4}}},
                                                   {"B", {{9, 2}, {10, 44}, {11, 4}}}};
   for (const Null null : {Null::own_studies, Null::all_studies}) {
-    const auto judge = [&](const char* area, const std::vector<PrintedCounts>& columns) {
-      return judge_tables(studies, {{"A", 0, area}, {"B", 0, "0.150"}}, columns, null, {.tables = 20000});
+    const auto judge = [&](const char* area) {
+      return judge_areas(studies, {{"A", 0, area}, {"B", 0, "0.150"}}, null);
     };
-    const auto good = judge("0.150", good_counts);
-    CHECK(good.areas[0].number == Typicality::reproduced);
-    CHECK(good.areas[1].number == Typicality::reproduced);
-    CHECK(good.counts->number == Typicality::reproduced);
+    CHECK(judge("0.150")[0].number == Compatibility::compatible);
+    CHECK_THAT(judge("0.150")[0].percentile, WithinAbs(50.0, 2.0));
     for (const char* out : {"0.210", "0.090"}) {
-      const auto moved = judge(out, good_counts);
-      CHECK(moved.areas[0].number ==
-            Typicality::untypical);  // 400 draws and 3 numbers: p of 0.015 is the least
-      CHECK(moved.areas[1].number == Typicality::reproduced);
-      CHECK(moved.counts->number == Typicality::reproduced);
+      const auto moved = judge(out);
+      // 400 draws: p of 2/401 with an error as large
+      CHECK(moved[0].number ==
+            (null == Null::own_studies ? Compatibility::undecided : Compatibility::not_compatible));
+      CHECK(moved[1].number == Compatibility::compatible);
     }
+    const auto p_of = [&](const std::vector<PrintedCounts>& columns) {
+      return judge_counts(studies, columns, null, {.tables = 20000}).back().p.value;
+    };
+    CHECK(p_of(good_counts) > 0.3);
     auto other = good_counts;
     other[1].counts = {{9, 2}, {10, 30}, {11, 18}};  // one column is enough, and either
-    CHECK(judge("0.150", other).counts->number == Typicality::not_reproduced);
-    CHECK(judge("0.150", {other[1], other[0]}).counts->number == Typicality::not_reproduced);
-    CHECK(judge("0.150", {{"A", other[1].counts}}).counts->number == Typicality::not_reproduced);
-    CHECK_FALSE(judge("0.150", {}).counts);
-    CHECK_THROWS_WITH(judge_tables(studies, {{"C", 0, "0.15"}}, {}, null), Contains("sampler = C:"));
+    CHECK(p_of(other) < 0.001);
+    CHECK(p_of({other[1], other[0]}) < 0.001);
+    CHECK(p_of({{"A", other[1].counts}}) < 0.001);
+    CHECK(judge_counts(studies, {other[1], other[0]}, null, {.tables = 2000}).size() == 3);
+    CHECK_THROWS_WITH(judge_areas(studies, {{"C", 0, "0.15"}}, null), Contains("sampler = C:"));
   }
 }
 
@@ -142,9 +145,7 @@ TEST_CASE("studies of equal samplers are one null, of different ones two", "[ver
   CHECK(null_of(synthetic(400, 1.0, {{7, 50}}), "A", "B", 1) == Null::own_studies);
   CHECK(null_of(synthetic(5, 1.0, same), "A", "B", 1) == Null::own_studies);  // too few to say
   const auto studies = synthetic(400, 2.0, same);
-  const auto median = [&](Null null) {
-    return judge_tables(studies, {{"A", 0, "0.15"}}, {}, null).areas[0].median;
-  };
+  const auto median = [&](Null null) { return judge_areas(studies, {{"A", 0, "0.15"}}, null)[0].median; };
   CHECK(median(Null::own_studies) < 0.16);
   CHECK(median(Null::all_studies) > 0.19);
   CHECK(null_studies(studies, "A", Null::own_studies).size() == 400);
@@ -158,32 +159,13 @@ TEST_CASE("samplers that differ are told apart, equal ones are equivalent", "[ve
   const auto one = contrast_areas(equal, "A", "B", 0, 1.1, 1);
   CHECK(one.replicated.equivalent);
   CHECK(one.p.value > 0.5);
-  CHECK(judge_contrast(one.p, one.replicated) == Verdict::consistent_with_chance);
+  CHECK(judge_contrast(one.replicated) == Verdict::contradicted);
   const auto double_area = synthetic(400, 2.0, same);
   const auto two = contrast_areas(double_area, "A", "B", 0, 2.0, 1);
   CHECK(two.replicated.different);
-  CHECK(judge_contrast(two.p, two.replicated) == Verdict::reproduced);
+  CHECK(judge_contrast(two.replicated) == Verdict::holds);
   const auto fewer = synthetic(400, 1.0, {{7, 50}});
-  const auto counts = contrast_iterations(fewer, {{10, 50}}, {{7, 50}}, "A", "B", 1, {.tables = 1000});
+  const auto counts = contrast_iterations(fewer, {{10, 50}}, {{7, 50}}, "A", "B", {.tables = 1000});
   CHECK(counts.replicated.different);
   CHECK(counts.replicated.ratio < 0.75);
-}
-
-TEST_CASE("the likelihood of the tables is that of a Normal and a multinomial", "[verdict]") {
-  const auto studies = synthetic(100, 1.0, {{10, 50}});
-  const auto at = [&](const char* area) {
-    return log_likelihood_of_tables(studies, {{"A", 0, area}}, {{"A", {{9, 2}, {10, 44}, {11, 4}}}},
-                                    Null::own_studies);
-  };
-  // Normal in log(area): the ratio of two values follows from mean and sd of the logs.
-  std::vector<double> logs;
-  for (const auto& s : studies_of(studies, "A")) {
-    logs.push_back(std::log(s.areas[0]));
-  }
-  const auto m = moments(logs);
-  const auto density = [&](double area) {
-    const double z = (std::log(area) - m.mean) / m.standard_deviation;
-    return -0.5 * z * z;
-  };
-  CHECK_THAT(at("0.2") - at("0.15"), WithinAbs(density(0.2) - density(0.15), 1e-10));
 }

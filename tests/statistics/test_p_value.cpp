@@ -165,3 +165,26 @@ TEST_CASE("equivalence of medians", "[p_value]") {
   const double width = against_constant.interval.high - against_constant.interval.low;
   CHECK_THAT(width, WithinRel(2.0 * 1.96 * 1.2533 * 0.1 / 20.0, 0.35));
 }
+
+TEST_CASE("the percentile counts the value itself, and ties by rounding", "[p_value]") {
+  const auto null = ramp(99);
+  CHECK_THAT(percentile(null, 49.5), WithinAbs(50.0, 1e-12));
+  CHECK_THAT(percentile(null, 0.0), WithinAbs(1.0, 1e-12));
+  CHECK_THAT(percentile(null, 100.0), WithinAbs(100.0, 1e-12));
+  CHECK_THAT(percentile(null, 49.6, 0.5), WithinAbs(51.0, 1e-12));
+}
+
+TEST_CASE("equivalence of means", "[p_value]") {
+  // means 2 and 2.02, variances of the means 0.01/4 and 0.01/2
+  const std::vector<double> first = {1.9, 2.1, 1.9, 2.1};
+  const std::vector<double> second = {1.92, 2.12};
+  const auto e = mean_ratio_equivalence(first, second, 0.2);
+  CHECK_THAT(e.ratio, WithinRel(1.01, 1e-13));
+  const double relative = std::sqrt(4.0 / 3.0 * 0.01 / 4.0 / 4.0 + 2.0 * 0.01 / 2.0 / (2.02 * 2.02));
+  CHECK_THAT(e.interval.high - e.interval.low, WithinRel(2.0 * 1.96 * 1.01 * relative, 1e-12));
+  CHECK(e.equivalent);
+  CHECK_FALSE(e.different);
+  CHECK_FALSE(mean_ratio_equivalence(first, second, 0.05).equivalent);
+  CHECK_THROWS_AS(mean_ratio_equivalence(std::vector<double>{1.0}, second, 0.1), errors::InvalidValue);
+  CHECK_THROWS_AS(mean_ratio_equivalence(first, std::vector<double>{1.0, 0.0}, 0.1), errors::InvalidValue);
+}
