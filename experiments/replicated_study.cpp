@@ -61,6 +61,9 @@ std::string key(const replication::Reading& reading, const std::vector<replicati
   for (Eigen::Index j = 0; j < prior.dimension(); ++j) {
     text += fmt::format(" | {} {}", prior.lower()[j], prior.upper()[j]);
   }
+  if (!prior.is_box()) {
+    text += " | " + prior.text();
+  }
   return text;
 }
 

@@ -81,11 +81,8 @@ SimulatedPair simulate_pair(const friction::Observations& design, const friction
           {.seed = seed, .run = replication},
           {.purpose = tmcmc::Purpose::data, .stage = stream, .row = row, .attempt = attempt});
     };
-    const auto uniforms = words(0);
-    for (int p = 0; p < friction::parameter_count; ++p) {
-      pair.parameters[p] = prior.lower()[p] + (prior.upper()[p] - prior.lower()[p]) *
-                                                  tmcmc::uniform_open(uniforms[static_cast<std::size_t>(p)]);
-    }
+    prior.draw({.seed = seed, .run = replication},
+               {.purpose = tmcmc::Purpose::data, .stage = stream, .attempt = attempt}, pair.parameters);
     bool accepted = pair.parameters[Parameter::friction_force] <= model.limit_friction_force_n();
     for (std::size_t i = 0; accepted && i < design.size(); ++i) {
       const auto w = words(i + 1);

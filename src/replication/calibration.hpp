@@ -31,7 +31,7 @@ struct CalibrationResult {
       0;  ///< runs that ended before beta = 1; their last population is ranked all the same
 };
 
-/// Parameters uniform on the prior box, and observations from them: the nominal ratio and the phase of each row of the
+/// Parameters from the prior, and observations from them: the nominal ratio and the phase of each row of the
 /// design are drawn anew, measured ratio and driving frequency stay. Pairs without continuous motion or with a nominal ratio
 /// that is not positive are drawn again; since the data alone decide of the latter, the ranks stay uniform.
 struct SimulatedPair {

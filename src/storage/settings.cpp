@@ -102,6 +102,9 @@ Settings settings(const RunDescription& run) {
   all.emplace_back("run", text(index));
   all.emplace_back("prior.lower", text(run.prior.lower()));
   all.emplace_back("prior.upper", text(run.prior.upper()));
+  if (!run.prior.is_box()) {
+    all.emplace_back("prior", run.prior.text());
+  }
   all.emplace_back("model", run.model);
   return all;
 }

@@ -16,7 +16,7 @@ namespace storage {
 struct RunDescription {
   tmcmc::Options options;  ///< threads, batch_rows and max_stages do not count
   tmcmc::StreamKey key;    ///< of the random streams
-  tmcmc::BoxPrior prior;   ///< bounds of each parameter
+  tmcmc::Prior prior;      ///< of the parameters
   /// One line of the caller's that names all else: the model, its data, their version, and a step rule if one is used.
   std::string model;
 };
@@ -28,7 +28,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// criterion are called criterion.kind and so on.
 [[nodiscard]] Settings settings(const tmcmc::Options& options);
 
-/// The options, seed, study, arm, run, prior.lower, prior.upper and model.
+/// The options, seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no box, and model.
 /// \throws std::invalid_argument if the model's description is not one line.
 [[nodiscard]] Settings settings(const RunDescription& run);
 

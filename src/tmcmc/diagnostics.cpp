@@ -142,7 +142,7 @@ const char* describe(WarningKind kind) {
   return "";
 }
 
-Diagnostics diagnose(const Result& result, const Options& options) {
+Diagnostics diagnose(const Result& result, const Options& options, std::span<const std::string> names) {
   Diagnostics diagnostics;
   diagnostics.effective_sample_size = effective_sample_sizes(result.final.points, result.final.genealogy);
   Warnings warnings;
@@ -184,7 +184,7 @@ Diagnostics diagnose(const Result& result, const Options& options) {
   }
   for (Index j = 0; j < diagnostics.effective_sample_size.size(); ++j) {
     warnings.below(diagnostics.effective_sample_size[j], 50.0, WarningKind::low_effective_size,
-                   "the effective sample size of parameter " + std::to_string(j),
+                   "the effective sample size of " + names[static_cast<std::size_t>(j)],
                    "take more or longer chains");
   }
   diagnostics.warnings = warnings.take();

@@ -2,6 +2,9 @@
 /// What a finished run says about its own quality.
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "tmcmc/options.hpp"
 #include "tmcmc/result.hpp"
 
@@ -21,6 +24,8 @@ namespace tmcmc {
 [[nodiscard]] const char* describe(StopReason stop);
 
 /// Effective sample sizes and warnings of a run. Reads final, stages, stop and evidence of the result.
-[[nodiscard]] Diagnostics diagnose(const Result& result, const Options& options);
+/// \param names  of the parameters, for the warnings
+[[nodiscard]] Diagnostics diagnose(const Result& result, const Options& options,
+                                   std::span<const std::string> names);
 
 }  // namespace tmcmc

@@ -13,7 +13,6 @@
 
 namespace tmcmc {
 
-using detail::to_unbounded;
 
 namespace {
 

@@ -29,7 +29,7 @@ std::string entry(std::string field, std::size_t index) {
   return field.append("[").append(std::to_string(index)).append("]");
 }
 
-void require_points(const State& state, const BoxPrior& prior, const Options& options) {
+void require_points(const State& state, const Prior& prior, const Options& options) {
   const Index n = state.points.rows();
   require(state.points.cols() == prior.dimension(), "state.points",
           "one column for each of the " + std::to_string(prior.dimension()) + " parameters, not " +
@@ -44,7 +44,7 @@ void require_points(const State& state, const BoxPrior& prior, const Options& op
   for (Index j = 0; j < state.points.cols(); ++j) {
     require((state.points.col(j).array() >= prior.lower()[j]).all() &&
                 (state.points.col(j).array() <= prior.upper()[j]).all(),
-            "state.points", "points inside the prior box");
+            "state.points", "points inside the support of the prior");
   }
 }
 
@@ -76,7 +76,7 @@ void require_descent(const Progress& progress, Index first_chains) {
 
 }  // namespace
 
-void require_valid(const Progress& progress, const BoxPrior& prior, const Options& options) {
+void require_valid(const Progress& progress, const Prior& prior, const Options& options) {
   const State& state = progress.state;
   require(state.beta >= 0.0 && state.beta <= 1.0, "state.beta", "a number in [0, 1]");
   require(state.stage >= 0 && state.stage <= options.max_stages, "state.stage",

@@ -18,9 +18,9 @@ struct Progress {
   BridgeEvidence bridge;            ///< empty without Options::diagnose
 };
 
-/// Checks what resume relies on: sizes that go together, indices within them, points inside the box, log-likelihoods that
+/// Checks what resume relies on: sizes that go together, indices within them, points in the support of the prior, log-likelihoods that
 /// are none of NaN and plus infinity, beta in [0, 1].
 /// \throws std::invalid_argument naming the field, what it is and what was expected.
-void require_valid(const Progress& progress, const BoxPrior& prior, const Options& options);
+void require_valid(const Progress& progress, const Prior& prior, const Options& options);
 
 }  // namespace tmcmc

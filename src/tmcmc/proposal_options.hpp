@@ -12,11 +12,13 @@ enum class Centre {
 
 /// Coordinates in which proposals are made.
 enum class Coordinates {
-  natural,  ///< the parameters; a proposal can fall outside the prior box
-  unbounded  ///< u = log((x - lower) / (upper - x)); the acceptance ratio carries the Jacobian, and none falls outside
+  natural,  ///< the parameters; a proposal can fall outside the support of the prior
+  /// u = log((x - lower) / (upper - x)) where the prior's support has two bounds, log(x - lower) or -log(upper - x) where it
+  /// has one, x itself where it has none; the acceptance ratio carries the Jacobian, and none falls outside.
+  unbounded
 };
 
-/// What happens to a proposal outside the prior box.
+/// What happens to a proposal outside the support of the prior.
 enum class Boundary {
   reject,  ///< the chain stays; leaves the tempered posterior invariant
   redraw   ///< drawn again until inside, without the correction of the acceptance ratio (published scripts)

@@ -10,7 +10,6 @@
 namespace tmcmc {
 
 using detail::require_valid;
-using detail::to_unbounded;
 
 namespace {
 
@@ -39,12 +38,12 @@ void ReferenceDraws::append(const ReferenceDraws& other) {
 ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity& reference, Index n,
                                  const StreamKey& key, std::uint32_t stage, int threads, Index batch_rows) {
   ReferenceDraws draws{
-      .z = sample(reference, n, key, stage, threads),
+      .z = sample(reference, problem.prior, n, key, stage, threads),
       .log_prior = {},
       .log_likelihood = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN()),
       .references = {reference},
       .counts = {n}};
-  draws.log_prior = log_prior_density(draws.z, threads);
+  draws.log_prior = log_prior_density(draws.z, problem.prior, threads);
   const Population x = from_unbounded(draws.z, problem.prior);
   for_each_block(n, rows_per_call(n, threads, batch_rows), threads, [&](Index, Index begin, Index end) {
     problem.log_likelihood(x.middleRows(begin, end - begin),
@@ -74,7 +73,7 @@ Eigen::VectorXd log_weights(const ReferenceDraws& draws, int threads) {
   return result;
 }
 
-WeightedPoints fit_points(const Result& result, const BoxPrior& prior) {
+WeightedPoints fit_points(const Result& result, const Prior& prior) {
   constexpr double independent_share = 0.1;
   const Index n = result.final.points.rows();
   WeightedPoints data{

@@ -12,7 +12,7 @@ namespace tmcmc {
 /// Draws from one or several reference densities, in unbounded coordinates.
 struct ReferenceDraws {
   Population z;                              ///< n x d
-  Eigen::VectorXd log_prior;                 ///< n, log_prior_density(z)
+  Eigen::VectorXd log_prior;                 ///< n, log_prior_density(z, prior)
   Eigen::VectorXd log_likelihood;            ///< n
   std::vector<ReferenceDensity> references;  ///< the densities, in the order of their draws
   std::vector<Index> counts;                 ///< draws from each; their sum is n
@@ -35,7 +35,7 @@ struct ReferenceDraws {
 
 /// The population of a finished run in unbounded coordinates, for a fit. Its states depend on each other: ten of them count
 /// as one independent point. Groups are chains.
-[[nodiscard]] WeightedPoints fit_points(const Result& result, const BoxPrior& prior);
+[[nodiscard]] WeightedPoints fit_points(const Result& result, const Prior& prior);
 
 /// The draws with their weights, for a fit: these sum to the effective size. Where that is below 100, 20 d or half of the
 /// draws (the least of them), the weights are raised to the power in (0, 1] at which it is reached.

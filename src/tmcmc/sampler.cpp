@@ -268,7 +268,7 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
   result.stages = std::move(progress.stages);
   if (options.diagnose) {
     result.evidence = {progress.bridge.log_evidence(), progress.bridge.standard_error()};
-    result.diagnostics = diagnose(result, options);
+    result.diagnostics = diagnose(result, options, problem.prior.names());
   }
   return result;
 }

@@ -17,7 +17,7 @@ namespace tmcmc {
 /// What is sampled: the posterior proportional to likelihood times prior.
 struct Problem {
   LogLikelihood log_likelihood;  ///< of the whole population, a row a point
-  BoxPrior prior;                ///< uniform on a box
+  Prior prior;                   ///< normalised
 };
 
 /// Memory of a run that every stage uses again.

@@ -8,6 +8,7 @@
 #include "tmcmc/chains.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
 #include "tmcmc/statistics.hpp"
+#include "tmcmc/unbounded_coordinates.hpp"
 
 namespace {
 
@@ -68,8 +69,7 @@ BoxPrior corner_box() {
 MetropolisKernel kernel_for(const Population& points, const BoxPrior& prior, Coordinates coordinates,
                             double scale) {
   MetropolisKernel kernel;
-  const Population u =
-      coordinates == Coordinates::natural ? points : tmcmc::detail::to_unbounded(points, prior);
+  const Population u = coordinates == Coordinates::natural ? points : tmcmc::to_unbounded(points, prior);
   const std::vector<double> weights(static_cast<std::size_t>(u.rows()), 1.0);
   const double sum = static_cast<double>(u.rows());
   kernel.factor = tmcmc::detail::cholesky_factor(
@@ -197,7 +197,7 @@ TEST_CASE("a random walk in unbounded coordinates is always accepted where the t
   start.col(1).setConstant(10.5);
   Chains chains{target, prior, kernel, start};
   CHECK(chains.move(10).accepted == 10 * 1000);
-  const Population u = tmcmc::detail::to_unbounded(chains.points, prior);  // the sum of ten steps
+  const Population u = tmcmc::to_unbounded(chains.points, prior);  // the sum of ten steps
   CHECK(kolmogorov(column(u, 0), [](double x) {
           return statistics::normal_cdf((x - std::log(0.1 / 1.9)) / std::sqrt(10.0 * 0.25));
         }) < kolmogorov_bound);
@@ -316,7 +316,7 @@ TEST_CASE("unbounded coordinates are the logit of the box", "[tmcmc][proposals]"
   Population points(2, 2);
   points << 0.25, -4.0, 0.9, -4.9999;
   const Population u =
-      tmcmc::detail::to_unbounded(points, BoxPrior(Eigen::Vector2d(0.0, -5.0), Eigen::Vector2d(1.0, -3.0)));
+      tmcmc::to_unbounded(points, BoxPrior(Eigen::Vector2d(0.0, -5.0), Eigen::Vector2d(1.0, -3.0)));
   CHECK_THAT(u(0, 0), WithinRel(std::log(0.25 / 0.75), 1e-14));
   CHECK_THAT(u(0, 1), WithinAbs(0.0, 1e-14));
   CHECK_THAT(u(1, 0), WithinRel(std::log(9.0), 1e-14));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "portable_math/multiversion.hpp"
 
@@ -75,6 +76,46 @@ void enter_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
   }
 }
 
+/// x becomes u = log(x - bound), or u = -log(bound - x) for sign = -1; log_jacobian loses log(dx/du).
+PORTABLE_MATH_MULTIVERSION
+void leave_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double log_distance = portable_math::log(sign * (x[i] - bound));
+    log_jacobian[i] -= log_distance;
+    x[i] = sign * log_distance;
+  }
+}
+
+/// The way back, from u; log_jacobian gains log(dx/du). What rounds to the bound or to infinity counts as outside.
+PORTABLE_MATH_MULTIVERSION
+void enter_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const double value = bound + sign * portable_math::exp(sign * x[i]);
+    const double distance = sign * (value - bound);
+    const bool inside = distance > 0.0 && distance < std::numeric_limits<double>::infinity();
+    x[i] = inside ? value : std::numeric_limits<double>::quiet_NaN();
+    log_jacobian[i] += inside ? portable_math::log(distance) : 0.0;
+  }
+}
+
+void leave_support(double low, double high, Lanes& x, Lanes& log_jacobian) {
+  if (std::isfinite(low) && std::isfinite(high)) {
+    leave_box(low, high, x, log_jacobian);
+  } else if (std::isfinite(low) || std::isfinite(high)) {
+    const bool above = std::isfinite(low);
+    leave_half_line(above ? low : high, above ? 1.0 : -1.0, x, log_jacobian);
+  }
+}
+
+void enter_support(double low, double high, Lanes& x, Lanes& log_jacobian) {
+  if (std::isfinite(low) && std::isfinite(high)) {
+    enter_box(low, high, x, log_jacobian);
+  } else if (std::isfinite(low) || std::isfinite(high)) {
+    const bool above = std::isfinite(low);
+    enter_half_line(above ? low : high, above ? 1.0 : -1.0, x, log_jacobian);
+  }
+}
+
 /// z becomes the step in units of the factor's columns, and log_correction what an independent draw adds.
 PORTABLE_MATH_MULTIVERSION
 void step_of(double unit, const Lanes& y, const Lanes& chosen, const Lanes& independent,
@@ -98,23 +139,16 @@ void scale_to(double factor, double centre, const Lanes& x, Lanes& y) {
 
 }  // namespace
 
-Population to_unbounded(const Population& points, const BoxPrior& prior) {
-  Population result(points.rows(), points.cols());
-  for (Index j = 0; j < points.cols(); ++j) {
-    for (Index i = 0; i < points.rows(); ++i) {
-      result(i, j) = portable_math::log(points(i, j) - prior.lower()[j]) -
-                     portable_math::log(prior.upper()[j] - points(i, j));
-    }
-  }
-  return result;
-}
-
 ProposalLanes::ProposalLanes(Index dimension)
     : dimension_(dimension),
       z_(static_cast<std::size_t>((dimension + 3) / 4 * 4)),
       x_(static_cast<std::size_t>(dimension)),
       y_(static_cast<std::size_t>(dimension)),
-      chosen_(static_cast<std::size_t>(dimension)) {}
+      chosen_(static_cast<std::size_t>(dimension)) {
+  for (const Lanes& x : x_) {
+    columns_.push_back(x.data());
+  }
+}
 
 void ProposalLanes::draw(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel,
                          const RowIds& rows, std::size_t count, Lanes* log_uniforms) {
@@ -189,7 +223,7 @@ void ProposalLanes::shift(const MetropolisKernel& kernel) {
   }
 }
 
-void ProposalLanes::propose(const MetropolisKernel& kernel, const BoxPrior& prior, const Population& points,
+void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
                             const RowIds& rows, std::size_t count) {
   log_correction_.fill(0.0);
   for (Index j = 0; j < dimension_; ++j) {
@@ -198,8 +232,13 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const BoxPrior& prio
     for (std::size_t i = 0; i < count; ++i) {
       x[i] = column[rows[i]];
     }
-    if (kernel.coordinates == Coordinates::unbounded) {
-      leave_box(prior.lower()[j], prior.upper()[j], x, log_correction_);
+  }
+  if (!prior.is_box()) {
+    prior.log_kernel(columns_, count, log_prior_.data());
+  }
+  if (kernel.coordinates == Coordinates::unbounded) {
+    for (Index j = 0; j < dimension_; ++j) {
+      leave_support(prior.lower()[j], prior.upper()[j], x_[static_cast<std::size_t>(j)], log_correction_);
     }
   }
   double scale = kernel.scale;
@@ -215,18 +254,38 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const BoxPrior& prio
       add_scaled(scale * kernel.factor(j, k), z_[static_cast<std::size_t>(k)], x);
     }
     if (kernel.coordinates == Coordinates::unbounded) {
-      enter_box(prior.lower()[j], prior.upper()[j], x, log_correction_);
+      enter_support(prior.lower()[j], prior.upper()[j], x, log_correction_);
     }
   }
 }
 
-std::size_t ProposalLanes::check(const BoxPrior& prior, std::size_t count) {
+std::size_t ProposalLanes::check(const Prior& prior, std::size_t count) {
   inside_.fill(1.0);
   for (Index j = 0; j < dimension_; ++j) {
     check_bounds(x_[static_cast<std::size_t>(j)], prior.lower()[j], prior.upper()[j], inside_);
   }
+  if (!prior.is_box()) {
+    add_prior_ratio(prior, count);
+  }
   return static_cast<std::size_t>(
       std::count(inside_.begin(), inside_.begin() + static_cast<std::ptrdiff_t>(count), 1.0));
+}
+
+void ProposalLanes::add_prior_ratio(const Prior& prior, std::size_t count) {
+  Lanes proposed;
+  prior.log_kernel(columns_, count, proposed.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (inside_[i] == 0.0) {
+      continue;
+    }
+    if (!(proposed[i] > -std::numeric_limits<double>::infinity())) {
+      inside_[i] = 0.0;
+    } else if (!std::isfinite(log_prior_[i])) {
+      throw SamplingError("the prior has drawn a point where its density is zero");
+    } else {
+      log_correction_[i] += proposed[i] - log_prior_[i];
+    }
+  }
 }
 
 }  // namespace tmcmc::detail

@@ -41,10 +41,6 @@ struct MetropolisKernel {
   }
 };
 
-/// Columns of the points in unbounded coordinates, n x d.
-/// \param points  n x d, inside the box
-[[nodiscard]] Population to_unbounded(const Population& points, const BoxPrior& prior);
-
 /// Proposals for up to 64 chains at a time, with the memory that they take.
 class ProposalLanes {
  public:
@@ -57,24 +53,29 @@ class ProposalLanes {
 
   /// \param dimension  d, the number of parameters
   explicit ProposalLanes(Index dimension);
+  ProposalLanes(const ProposalLanes&) = delete;
+  ProposalLanes& operator=(const ProposalLanes&) = delete;
 
   /// Draws what the proposals of `count` rows need; the log-uniforms of the acceptance too if log_uniforms is given.
   void draw(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel, const RowIds& rows,
             std::size_t count, Lanes* log_uniforms);
 
   /// Makes the proposals from the rows of `points`.
-  void propose(const MetropolisKernel& kernel, const BoxPrior& prior, const Population& points,
+  void propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
                const RowIds& rows, std::size_t count);
 
-  /// Marks the proposals inside the box and returns their number.
-  std::size_t check(const BoxPrior& prior, std::size_t count);
+  /// Marks the proposals where the prior has a density, adds the ratio of the prior densities to log_correction(), and returns
+  /// the number of those marked.
+  /// \throws SamplingError for a prior of the user's own that gives NaN, or no density where it has drawn
+  std::size_t check(const Prior& prior, std::size_t count);
 
-  /// Whether check() has found the proposal of a chain inside the box.
+  /// Whether check() has found a prior density at the proposal of a chain.
   [[nodiscard]] bool inside(std::size_t lane) const { return inside_[lane] != 0.0; }
   /// Proposed parameter j, a lane a chain.
   [[nodiscard]] const Lanes& parameter(Index j) const { return x_[static_cast<std::size_t>(j)]; }
   [[nodiscard]] const Lanes& independent() const { return independent_; }  ///< 1 for independent proposals
-  /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and ratio of proposal densities.
+  /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and the ratios of prior and proposal
+  /// densities.
   [[nodiscard]] const Lanes& log_correction() const { return log_correction_; }
 
  private:
@@ -83,13 +84,16 @@ class ProposalLanes {
   void draw_choices(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel,
                     const RowIds& rows, std::size_t count);
   void shift(const MetropolisKernel& kernel);
+  void add_prior_ratio(const Prior& prior, std::size_t count);
 
   Index dimension_;
   std::array<WordLanes, 4> words_{};
-  std::vector<Lanes> z_;       // standard normals
-  std::vector<Lanes> x_;       // proposals
-  std::vector<Lanes> y_;       // whitened coordinates
-  std::vector<Lanes> chosen_;  // 1 for coordinates in S
+  std::vector<Lanes> z_;                // standard normals
+  std::vector<Lanes> x_;                // proposals
+  std::vector<Lanes> y_;                // whitened coordinates
+  std::vector<Lanes> chosen_;           // 1 for coordinates in S
+  std::vector<const double*> columns_;  // of x_
+  Lanes log_prior_{};                   // at the present states
   Lanes independent_{};
   Lanes walk_scale_{};
   Lanes inside_{};

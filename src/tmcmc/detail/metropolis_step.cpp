@@ -28,7 +28,7 @@ struct Mover::Block {
         thresholds(static_cast<std::size_t>(rows)),
         proposals(dimension) {}
 
-  Population candidates;  // proposals inside the box, in the order of their rows
+  Population candidates;  // proposals inside the support, in the order of their rows
   Eigen::VectorXd candidate_log_likelihood;
   std::vector<Index> candidate_rows;
   std::vector<double> independent;  // 1 for independent proposals
@@ -37,7 +37,7 @@ struct Mover::Block {
   ProposalLanes proposals;
 };
 
-Mover::Mover(const LogLikelihood& log_likelihood, const BoxPrior& prior, const StreamKey& key, int threads,
+Mover::Mover(const LogLikelihood& log_likelihood, const Prior& prior, const StreamKey& key, int threads,
              Index batch_rows)
     : log_likelihood_(log_likelihood), prior_(prior), key_(key), threads_(threads), batch_rows_(batch_rows) {}
 
@@ -81,7 +81,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
   ProposalLanes& proposals = block.proposals;
   ProposalLanes::Lanes log_u{};
   const auto propose = [&](std::size_t count,
-                           ProposalLanes::Lanes* log_uniforms) {  // returns the number inside the box
+                           ProposalLanes::Lanes* log_uniforms) {  // returns the number inside the support
     proposals.draw(key_, id, kernel, row_ids, count, log_uniforms);
     proposals.propose(kernel, prior_, points, row_ids, count);
     return proposals.check(prior_, count);
@@ -135,8 +135,8 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
     }
     while (outside_count > 0) {  // draw the rest again, packed to the front
       if (static_cast<Index>(++id.attempt) > kernel.max_redraws) {
-        throw SamplingError("a proposal fell outside the prior box " + std::to_string(kernel.max_redraws) +
-                            " times in a row (max_redraws)");
+        throw SamplingError("a proposal fell outside the support of the prior " +
+                            std::to_string(kernel.max_redraws) + " times in a row (max_redraws)");
       }
       for (std::size_t k = 0; k < outside_count; ++k) {
         row_ids[k] = row_ids[outside[k]];

@@ -15,7 +15,7 @@ struct MoveCounts {
   Index accepted = 0;        ///< proposals accepted
   Index walks = 0;           ///< proposals by a random walk, not independent ones
   Index accepted_walks = 0;  ///< of `walks`
-  Index evaluations = 0;     ///< log-likelihoods asked for; proposals outside the box need none
+  Index evaluations = 0;     ///< log-likelihoods asked for; proposals outside the prior's support need none
   Index redraws = 0;         ///< proposals drawn again (Boundary::redraw)
 
   /// Adds field by field.
@@ -27,15 +27,15 @@ class Mover {
  public:
   /// \param threads     threads over blocks of rows
   /// \param batch_rows  most rows a call of the log-likelihood gets; 0: one call a thread and step
-  Mover(const LogLikelihood& log_likelihood, const BoxPrior& prior, const StreamKey& key, int threads,
+  Mover(const LogLikelihood& log_likelihood, const Prior& prior, const StreamKey& key, int threads,
         Index batch_rows);
   ~Mover();
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
 
   /// One Metropolis step of the chains that live in the given rows, in place: a proposal theta' of the kernel is accepted
-  /// with probability min(1, (L(theta') / L(theta))^beta c), c being the correction for coordinates and proposal
-  /// densities. The draws depend on key, stage, row and `draw` alone.
+  /// with probability min(1, (L(theta') / L(theta))^beta c), c being the ratio of the prior densities and the
+  /// correction for coordinates and proposal densities. The draws depend on key, stage, row and `draw` alone.
   /// \param rows  rows to move, each at most once; empty: all
   /// \throws SamplingError for a log-likelihood of NaN or plus infinity, or if max_redraws is exceeded.
   MoveCounts step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,
@@ -48,7 +48,7 @@ class Mover {
                         Block& block) const;
 
   const LogLikelihood& log_likelihood_;
-  const BoxPrior& prior_;
+  const Prior& prior_;
   StreamKey key_;
   int threads_;
   Index batch_rows_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tmcmc/detail/proposal_covariance.hpp"
+#include "tmcmc/unbounded_coordinates.hpp"
 
 namespace tmcmc::detail {
 
@@ -22,7 +23,7 @@ double initial_scale(const Options& options) {
   return 1.0;
 }
 
-MetropolisKernel kernel_of(const BoxPrior& prior, const Options& options, const State& from,
+MetropolisKernel kernel_of(const Prior& prior, const Options& options, const State& from,
                            ConstDoubles weights, double weight_sum) {
   MetropolisKernel kernel;
   const bool fixed = options.scale_rule == ScaleRule::fixed;
@@ -53,7 +54,7 @@ MetropolisKernel kernel_of(const BoxPrior& prior, const Options& options, const 
 
 }  // namespace
 
-StageKernels stage_kernels(const BoxPrior& prior, const Options& options, const State& from,
+StageKernels stage_kernels(const Prior& prior, const Options& options, const State& from,
                            ConstDoubles weights, double weight_sum, std::span<const Index> ancestors) {
   StageKernels stage;
   if (options.cross_fit) {

@@ -14,7 +14,7 @@ namespace tmcmc::detail {
 /// \param weights    of the rows of `from`, with the sum weight_sum
 /// \param ancestors  row of `from` that each chain starts from
 /// \throws SamplingError if a covariance is not finite.
-[[nodiscard]] StageKernels stage_kernels(const BoxPrior& prior, const Options& options, const State& from,
+[[nodiscard]] StageKernels stage_kernels(const Prior& prior, const Options& options, const State& from,
                                          ConstDoubles weights, double weight_sum,
                                          std::span<const Index> ancestors);
 

@@ -1,0 +1,119 @@
+// The density of a prior.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "portable_math/elementary.hpp"
+#include "tmcmc/prior.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+double Prior::log_constant() const {
+  double sum = 0.0;
+  for (const Marginal& marginal : marginals_) {
+    sum += marginal.log_constant();
+  }
+  for (Index j = 0; j < factor_.rows(); ++j) {
+    sum -= portable_math::log(factor_(j, j));
+  }
+  return sum;
+}
+
+void Prior::log_kernel(std::span<const double* const> columns, std::size_t n, double* result) const {
+  std::fill_n(result, n, 0.0);
+  if (own_ != nullptr) {
+    own_log_density(columns, n, result);
+    return;
+  }
+  for (std::size_t j = 0; j < marginals_.size(); ++j) {
+    marginals_[j].add_log_kernel(columns[j], n, result);
+  }
+  if (factor_.size() > 0) {
+    add_copula(columns, n, result);
+  }
+}
+
+/// log of the density of the copula: -(|L^-1 z|^2 - |z|^2) / 2, z the normal scores.
+void Prior::add_copula(std::span<const double* const> columns, std::size_t n, double* result) const {
+  const Index d = dimension();
+  std::vector<double> white(static_cast<std::size_t>(d));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(result[i] > -infinity)) {
+      continue;
+    }
+    double sum = 0.0;
+    for (Index j = 0; j < d; ++j) {
+      const double z =
+          marginals_[static_cast<std::size_t>(j)].normal_score(columns[static_cast<std::size_t>(j)][i]);
+      double rest = z;
+      for (Index k = 0; k < j; ++k) {
+        rest -= factor_(j, k) * white[static_cast<std::size_t>(k)];
+      }
+      rest /= factor_(j, j);
+      white[static_cast<std::size_t>(j)] = rest;
+      sum += rest * rest - z * z;
+    }
+    result[i] = std::isfinite(sum) ? result[i] - 0.5 * sum : -infinity;  // infinite on a bound
+  }
+}
+
+void Prior::own_log_density(std::span<const double* const> columns, std::size_t n, double* result) const {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < n; ++i) {
+    bool is_inside = true;
+    for (Index j = 0; j < dimension(); ++j) {
+      const double x = columns[static_cast<std::size_t>(j)][i];
+      is_inside = is_inside && x >= lower_[j] && x <= upper_[j];
+    }
+    if (is_inside) {
+      rows.push_back(i);
+    } else {
+      result[i] = -infinity;
+    }
+  }
+  if (rows.empty()) {
+    return;
+  }
+  const auto count = static_cast<Index>(rows.size());
+  Population points(count, dimension());
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
+  for (Index j = 0; j < dimension(); ++j) {
+    for (Index k = 0; k < count; ++k) {
+      points(k, j) = columns[static_cast<std::size_t>(j)][rows[static_cast<std::size_t>(k)]];
+    }
+  }
+  own_->log_density(points, values);
+  for (Index k = 0; k < count; ++k) {
+    if (!(values[k] < infinity)) {
+      std::ostringstream message;
+      message.precision(17);
+      message << "the log-density of the prior is " << values[k] << " at (";
+      for (Index j = 0; j < dimension(); ++j) {
+        message << (j > 0 ? ", " : "") << points(k, j);
+      }
+      message << "): expected a finite number or minus infinity";
+      throw SamplingError(message.str());
+    }
+    result[rows[static_cast<std::size_t>(k)]] = values[k];
+  }
+}
+
+Eigen::VectorXd Prior::log_density(const Population& points) const {
+  std::vector<const double*> columns;
+  for (Index j = 0; j < points.cols(); ++j) {
+    columns.push_back(points.col(j).data());
+  }
+  Eigen::VectorXd result(points.rows());
+  log_kernel(columns, static_cast<std::size_t>(points.rows()), result.data());
+  return result.array() + log_constant();
+}
+
+}  // namespace tmcmc
