@@ -4,27 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
-#include "io/csv_bytes.hpp"
 #include "io/csv_text.hpp"
 
 namespace io {
 
 using namespace csv_text;
 
-namespace {
-
-constexpr std::size_t whole = std::string::npos;
-
-}  // namespace
-
 CsvTable CsvTable::read(const std::filesystem::path& path) {
   CsvTable table;
   table.path_ = path;
-  table.buffer_ = csv_bytes(path);
-  table.parse();
+  const std::string bytes = bytes_of(path);
+  table.parse(bytes);
   return table;
 }
 
@@ -33,100 +25,74 @@ void CsvTable::complain(std::size_t line, std::string_view column, std::string_v
   throw InputError({path_, line, std::string(column), std::string(found), std::string(expected)});
 }
 
-void CsvTable::parse() {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+void CsvTable::parse(std::string_view bytes) {
   for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"}) {
-    if (buffer_.starts_with(mark)) {
-      complain(1, "1", quoted_value(mark), "UTF-8 text, not UTF-16");
-    }
+    if (bytes.starts_with(mark)) complain(1, "1", quoted_value(mark), "UTF-8 text, not UTF-16");
   }
-  std::size_t begin = buffer_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  std::optional<Line> commented;  // above the header, without the signs of a comment
-  const auto refuse_comment = [&](const Line& line) {
-    complain(line.number, "1", quoted_value(fmt::format("# {}", view({line.begin, line.end - line.begin}))),
+  bytes.remove_prefix(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);  // byte order mark
+  Line comment;                                                    // above the header
+  const auto refuse_comment = [&] {
+    complain(comment.number, "1", quoted_value(fmt::format("# {}", comment.text)),
              "the header, without lines that begin with # above it");
   };
-  for (std::size_t number = 1; begin < buffer_.size(); ++number) {
-    const std::size_t newline = std::min(buffer_.find('\n', begin), buffer_.size());
-    const std::size_t end = newline > begin && buffer_[newline - 1] == '\r' ? newline - 1 : newline;
-    const std::string_view text = view({begin, end - begin});
-    const Line line{begin + (text.size() - without_leading_blanks(text).size()), end, number};
-    begin = newline + 1;
-    if (line.begin == end) continue;
+  for (std::size_t number = 1; !bytes.empty(); ++number) {
+    const std::size_t newline = std::min(bytes.find('\n'), bytes.size());
+    std::string_view text = bytes.substr(0, newline);
+    bytes.remove_prefix(std::min(newline + 1, bytes.size()));
+    text.remove_suffix(text.ends_with('\r') ? 1 : 0);
+    const Line line{without_leading_blanks(text), number};
+    if (line.text.empty()) continue;
     if (width_ > 0) {
       parse_row(line);
-    } else if (commented) {
-      if (!is_row_below(view({commented->begin, commented->end - commented->begin}), text)) {
-        refuse_comment(*commented);
-      }
-      parse_header(*commented);
+    } else if (comment.number > 0) {
+      if (!is_row_below(comment.text, text)) refuse_comment();
+      parse_header(comment);
       parse_row(line);
-    } else if (buffer_[line.begin] == '#') {
+    } else if (line.text.starts_with('#')) {
       require_text(line, 0);
-      commented = line;
-      while (commented->begin < end &&
-             (buffer_[commented->begin] == '#' || is_blank(buffer_[commented->begin]))) {
-        ++commented->begin;
-      }
+      comment = {line.text.substr(std::min(line.text.find_first_not_of("# \t"), line.text.size())), number};
     } else {
       parse_header(line);
     }
   }
-  if (width_ == 0 && commented) refuse_comment(*commented);
+  if (width_ == 0 && comment.number > 0) refuse_comment();
   if (width_ == 0) complain(1, "", "empty file", "a header line");
   if (lines_.empty()) complain(header_line_, "", "no rows", "at least one row after the header");
 }
 
 void CsvTable::parse_header(const Line& line) {
-  const std::string_view text = view({line.begin, line.end - line.begin});
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
-    if (text.find(',') == whole && has_outside_quotes(trimmed(text), separator)) {
-      complain(line.number, "", fmt::format("header '{}'", printable(text)),
+    if (line.text.find(',') == line.text.npos && split(trimmed(line.text), separator).size() > 1) {
+      complain(line.number, "", fmt::format("header '{}'", printable(line.text)),
                fmt::format("columns separated by commas, not by {}", name));
     }
   }
-  std::vector<Cell> header;
-  parse_line(line, header);
+  parse_line(line, names_);
   header_line_ = line.number;
-  for (std::size_t place = 0; place < header.size(); ++place) {
-    const std::string_view name = view(header[place]);
-    if (name.empty() && place == 0 && header.size() > 1) {
-      has_row_names_ = true;
-      continue;
+  width_ = names_.size();
+  has_row_names_ = names_.front().empty() && width_ > 1;
+  for (std::size_t place = has_row_names_ ? 1 : 0; place < width_; ++place) {
+    const auto refuse = [&](const char* expected) {
+      complain(line.number, fmt::format("{}", place + 1), quoted_value(names_[place]), expected);
+    };
+    if (names_[place].empty()) {
+      refuse(place == 0 ? "a column name" : "a column name, which only row names in a first column may lack");
     }
-    if (name.empty()) {
-      complain(
-          line.number, fmt::format("{}", place + 1), "value ''",
-          place == 0 ? "a column name" : "a column name, which only row names in a first column may lack");
-    }
-    if (!places_.emplace(name, place).second) {
-      complain(line.number, fmt::format("{}", place + 1), quoted_value(name), "each column name once");
-    }
-    names_.emplace_back(name);
+    if (!places_.emplace(names_[place], place).second) refuse("each column name once");
   }
-  width_ = header.size();
+  if (has_row_names_) names_.erase(names_.begin());
 }
 
 void CsvTable::parse_row(const Line& line) {
   parse_line(line, cells_);
   lines_.push_back(line.number);
   if (!has_row_names_) return;
-  const std::string_view name = view(cells_[cells_.size() - width_]);
+  const std::string& name = cells_[cells_.size() - width_];
   double number = 0.0;
   if (parse_any_double(name, number).empty() && number != std::floor(number)) {
     complain(line.number, "1", quoted_value(name),
              "a row number or a row name, since the column has no name in the header");
   }
-}
-
-std::size_t CsvTable::closing_quote(std::size_t open, std::size_t end) const {
-  std::size_t i = open + 1;
-  for (; i < end; ++i) {
-    if (buffer_[i] != '"') continue;
-    if (i + 1 == end || buffer_[i + 1] != '"') return i;
-    ++i;
-  }
-  return end;
 }
 
 std::string CsvTable::column_label(std::size_t place) const {
@@ -136,78 +102,61 @@ std::string CsvTable::column_label(std::size_t place) const {
 }
 
 void CsvTable::require_text(const Line& part, std::size_t place) const {
-  const std::string_view text = view({part.begin, part.end - part.begin});
-  if (text.find('\0') != whole) {
-    complain(part.number, column_label(place), quoted_value(text), "UTF-8 text without NUL bytes");
-  }
-  if (text.find('\r') != whole) {
-    complain(part.number, column_label(place), quoted_value(text), "lines that end in LF or CRLF");
-  }
+  const auto refuse = [&](const char* expected) {
+    complain(part.number, column_label(place), quoted_value(part.text), expected);
+  };
+  if (part.text.find('\0') != part.text.npos) refuse("UTF-8 text without NUL bytes");
+  if (part.text.find('\r') != part.text.npos) refuse("lines that end in LF or CRLF");
 }
 
-void CsvTable::parse_line(const Line& line, std::vector<Cell>& cells) {
-  const std::size_t begin = line.begin;
-  const std::size_t end = line.end;
-  const std::size_t number = line.number;
-  const std::size_t first_cell = cells.size();
-  const auto column = [&] { return column_label(cells.size() - first_cell); };
-  const auto value_of = [&](std::size_t from, std::size_t to) {
-    return quoted_value(view({from, to - from}));
+void CsvTable::parse_line(const Line& line, std::vector<std::string>& cells) const {
+  const std::size_t first = cells.size();
+  const auto place = [&] { return cells.size() - first; };
+  const auto refuse = [&](std::string_view found, std::string_view expected) {
+    complain(line.number, column_label(place()), quoted_value(found), expected);
   };
-  const auto refuse_width = [&](const std::string& found, std::string_view how_many) {
-    complain(number, column(), found, fmt::format("{} cells, as in the header, not {}", width_, how_many));
+  const auto width_not = [&](std::string_view how_many) {
+    return fmt::format("{} cells, as in the header, not {}", width_, how_many);
   };
-  if (width_ > 0 && trimmed(view({begin, end - begin})).starts_with('#')) {
-    complain(number, column_label(0), value_of(begin, end),
-             fmt::format("{} cells, as in the header, and no comments", width_));
+  std::string_view rest = line.text;
+  if (width_ > 0 && rest.starts_with('#')) {
+    refuse(rest, fmt::format("{} cells, as in the header, and no comments", width_));
   }
-  std::size_t position = begin;
-  for (;; ++position) {
-    std::size_t from = position;
-    while (from < end && is_blank(buffer_[from])) ++from;
-    Cell cell{from, 0};
-    if (from < end && buffer_[from] == '"') {
-      const std::size_t close = closing_quote(from, end);
-      require_text({from, close, number}, cells.size() - first_cell);
-      if (close == end) complain(number, column(), value_of(from, end), "a closing quote on the same line");
-      position = close + 1;
-      while (position < end && is_blank(buffer_[position])) ++position;
-      if (position < end && buffer_[position] != ',') {
-        complain(number, column(), value_of(from, end), "a comma after the closing quote");
-      }
-      for (std::size_t i = from + 1; i < close; ++i) {
-        if (buffer_[i] == '"') ++i;
-        buffer_[from + cell.size++] = buffer_[i];
-      }
+  for (bool has_more = true; has_more;) {
+    rest = without_leading_blanks(rest);
+    std::string cell;
+    std::string_view tail;  // from the comma on
+    if (rest.starts_with('"')) {
+      std::size_t close = rest.find('"', 1);
+      while (close != rest.npos && rest.substr(close + 1).starts_with('"')) close = rest.find('"', close + 2);
+      require_text({rest.substr(0, close), line.number}, place());
+      if (close == rest.npos) refuse(rest, "a closing quote on the same line");
+      tail = without_leading_blanks(rest.substr(close + 1));
+      if (!tail.empty() && tail.front() != ',') refuse(rest, "a comma after the closing quote");
+      for (std::size_t i = 1; i < close; i += rest[i] == '"' ? 2 : 1) cell += rest[i];
     } else {
-      position = from + std::min(view({from, end - from}).find(','), end - from);
-      std::size_t stop = position;
-      while (stop > from && is_blank(buffer_[stop - 1])) --stop;
-      require_text({from, stop, number}, cells.size() - first_cell);
-      cell.size = stop - from;
-      if (view(cell).find('"') != whole) {
-        complain(number, column(), value_of(from, stop), "quotes around the whole cell");
-      }
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      cell = trimmed(rest.substr(0, comma));
+      require_text({cell, line.number}, place());
+      if (cell.find('"') != cell.npos) refuse(cell, "quotes around the whole cell");
+      tail = rest.substr(comma);
     }
-    const std::size_t found = cells.size() - first_cell;
-    if (width_ > 0 && found == width_) {
-      const bool is_one_more = lines_.empty() && position >= end && cell.size > 0;
-      refuse_width(
-          quoted_value(view(cell)),
-          is_one_more ? "more (row names need a column in the header too, and decimals a point)" : "more");
+    if (width_ > 0 && place() == width_) {
+      const bool is_one_more = lines_.empty() && tail.empty() && !cell.empty();
+      refuse(cell, width_not(is_one_more ? "more (row names need a column in the header too, and decimals a "
+                                           "point)"
+                                         : "more"));
     }
-    cells.push_back(cell);
-    if (position >= end) break;
+    cells.push_back(std::move(cell));
+    has_more = !tail.empty();
+    rest = has_more ? tail.substr(1) : tail;
   }
-  const std::size_t found = cells.size() - first_cell;
-  if (found < width_) refuse_width("missing value", fmt::format("{}", found));
+  if (place() < width_) {
+    complain(line.number, column_label(place()), "missing value", width_not(std::to_string(place())));
+  }
 }
 
-bool CsvTable::has(std::string_view column) const noexcept {
-  return places_.find(column) != places_.end();
-}
-
-std::size_t CsvTable::index(std::string_view column) const {
+std::size_t CsvTable::place_of(std::string_view column) const {
   require_columns({column});
   return places_.find(column)->second;
 }
@@ -224,9 +173,9 @@ void CsvTable::require_columns(std::initializer_list<std::string_view> columns) 
 }
 
 std::string_view CsvTable::cell(std::size_t row, std::string_view column) const {
-  const std::size_t i = index(column);
+  const std::size_t place = place_of(column);
   line(row);
-  return view(cells_[row * width_ + i]);
+  return cells_[row * width_ + place];
 }
 
 void CsvTable::fail(std::size_t row, std::string_view column, std::string_view expected) const {
@@ -235,10 +184,10 @@ void CsvTable::fail(std::size_t row, std::string_view column, std::string_view e
 
 template <class Value, class Parser>
 std::vector<Value> CsvTable::parsed_column(std::string_view column, Parser parser) const {
-  const std::size_t i = index(column);
+  const std::size_t place = place_of(column);
   std::vector<Value> values(rows());
   for (std::size_t row = 0; row < rows(); ++row) {
-    const std::string_view expected = parser(view(cells_[row * width_ + i]), values[row]);
+    const std::string_view expected = parser(cells_[row * width_ + place], values[row]);
     if (!expected.empty()) fail(row, column, expected);
   }
   return values;
@@ -262,7 +211,7 @@ std::vector<long> CsvTable::integers(std::string_view column) const {
 }
 
 std::vector<std::string> CsvTable::text(std::string_view column) const {
-  return parsed_column<std::string>(column, [](std::string_view cell_text, std::string& value) {
+  return parsed_column<std::string>(column, [](const std::string& cell_text, std::string& value) {
     value = cell_text;
     return std::string_view();
   });

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "io/errors.hpp"
@@ -34,10 +33,11 @@ namespace io {
 /// beyond it. Files that cannot be read or have more than 4 GiB have no line to name.
 class CsvTable {
  public:
-  /// Reads the whole file. Throws InputError if it cannot be read, has no header or no row, if a column name
-  /// is empty (but for that of row numbers or names) or repeated, if a row has not as many cells as the header,
-  /// if a quote is not closed or stands inside an unquoted cell, or if the file is UTF-16, holds NUL bytes or a
-  /// CR without LF, is separated by semicolons or tabs, or has more than 4 GiB.
+  /// Reads the whole file.
+  /// \throws InputError if it cannot be read, has no header or no row; if a column name is empty (but for that of row
+  ///         numbers or names) or repeated; if a row has not as many cells as the header; if a quote is not closed or
+  ///         stands inside an unquoted cell; if the file is UTF-16, holds NUL bytes or a CR without LF, is separated by
+  ///         semicolons or tabs, or has more than 4 GiB.
   static CsvTable read(const std::filesystem::path& path);
 
   /// The path as given to read().
@@ -47,67 +47,58 @@ class CsvTable {
   /// Names of the header, in the order of the file.
   const std::vector<std::string>& column_names() const noexcept { return names_; }
   /// Whether there is a column of this name.
-  bool has(std::string_view column) const noexcept;
-
-  /// Line of the file, counted from 1, that holds the row. Throws std::out_of_range.
+  bool has(std::string_view column) const noexcept { return places_.find(column) != places_.end(); }
+  /// Line of the file, counted from 1, that holds the row. \throws std::out_of_range.
   std::size_t line(std::size_t row) const { return lines_.at(row); }
-
-  /// One cell, unquoted; valid while the table lives. Throws InputError if there is no such column,
-  /// std::out_of_range if there is no such row.
+  /// One cell, unquoted; valid while the table lives.
+  /// \throws InputError if there is no such column, std::out_of_range if there is no such row.
   std::string_view cell(std::size_t row, std::string_view column) const;
-
-  /// The number in one cell, as numbers_or_nan reads it; nothing if it is none. Throws as cell().
+  /// The number in one cell, as numbers_or_nan reads it; nothing if it is none. \throws as cell().
   std::optional<double> find_number(std::size_t row, std::string_view column) const;
-
-  /// Throws InputError, naming the first column that is missing, unless all of them exist. Others may exist
-  /// too.
+  /// Others may exist too. \throws InputError naming the first column that is missing.
   void require_columns(std::initializer_list<std::string_view> columns) const;
 
-  /// A whole column, one element a row. Each throws InputError if there is no such column or a cell does not
-  /// fit. Numbers are decimal, correctly rounded, and may carry a sign; a magnitude that a double cannot hold
-  /// (1e400, 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
-  std::vector<double> numbers(std::string_view column) const;         ///< finite numbers only
-  std::vector<double> numbers_or_nan(std::string_view column) const;  ///< nan, inf and -inf too, in any case
-  std::vector<long> integers(std::string_view column) const;          ///< no point and no exponent
-  std::vector<std::string> text(std::string_view column) const;       ///< any text, the empty one included
+  /// A whole column of finite numbers, one a row, as the other columns below. Numbers are decimal, correctly rounded, and may
+  /// carry a sign; a magnitude that a double cannot hold (1e400, 1e-400), decimal commas, separators of thousands and
+  /// hexadecimal digits are refused.
+  /// \throws InputError if there is no such column or a cell does not fit.
+  std::vector<double> numbers(std::string_view column) const;
+  /// The same, with nan, inf and -inf in any case.
+  std::vector<double> numbers_or_nan(std::string_view column) const;
+  /// Whole numbers without point and exponent.
+  std::vector<long> integers(std::string_view column) const;
+  /// Any text, the empty one included.
+  std::vector<std::string> text(std::string_view column) const;
 
   /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected` completes
   /// the sentence "expected ...".
   [[noreturn]] void fail(std::size_t row, std::string_view column, std::string_view expected) const;
 
  private:
-  struct Cell {
-    std::size_t begin;
-    std::size_t size;
-  };
   struct Line {
-    std::size_t begin;
-    std::size_t end;
-    std::size_t number;
+    std::string_view text = {};
+    std::size_t number = 0;
   };
   CsvTable() = default;
-  void parse();
-  void parse_line(const Line& line, std::vector<Cell>& cells);
-  std::size_t closing_quote(std::size_t open, std::size_t end) const;
+  void parse(std::string_view bytes);
   void parse_header(const Line& line);
   void parse_row(const Line& line);
+  void parse_line(const Line& line, std::vector<std::string>& cells) const;
   void require_text(const Line& part, std::size_t place) const;
-  [[nodiscard]] std::string column_label(std::size_t place) const;
+  std::string column_label(std::size_t place) const;
   [[noreturn]] void complain(std::size_t line, std::string_view column, std::string_view found,
                              std::string_view expected) const;
-  std::size_t index(std::string_view column) const;
-  std::string_view view(Cell cell) const { return std::string_view(buffer_).substr(cell.begin, cell.size); }
+  std::size_t place_of(std::string_view column) const;
   template <class Value, class Parser>
   std::vector<Value> parsed_column(std::string_view column, Parser parser) const;
 
   std::filesystem::path path_;
-  std::string buffer_;
   std::vector<std::string> names_;
   std::map<std::string, std::size_t, std::less<>> places_;  // of the names
   std::size_t width_ = 0;                                   // cells of a line, those of row names too
   bool has_row_names_ = false;                              // in a first column without a name
   std::size_t header_line_ = 0;
-  std::vector<Cell> cells_;  // row by row
+  std::vector<std::string> cells_;  // row by row
   std::vector<std::size_t> lines_;
 };
 
@@ -117,14 +108,14 @@ std::string format_number(double value);
 /// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before commit().
 class CsvWriter {
  public:
-  /// Opens the output ("-" is standard output) and writes the header. Throws OutputError if it cannot be
-  /// opened, std::logic_error if there is no column or a column name is empty or repeated.
+  /// Opens the output ("-" is standard output) and writes the header.
+  /// \throws OutputError if it cannot be opened; std::logic_error if there is no column or a name is empty or repeated.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
-  /// Writes one row: each argument a number, a text, or a vector or span of doubles or texts that fills
-  /// several cells. Doubles are written by format_number. Texts are quoted where they must be; one with a
-  /// line break in it is valid RFC 4180 but CsvTable refuses it. Throws OutputError, and std::logic_error if
-  /// the number of cells is not the number of columns; such a row leaves no trace.
+  /// Writes one row: each argument a number, a text, or a range of doubles or texts that fills several cells. Doubles are
+  /// written by format_number. Texts are quoted where they must be; one with a line break in it is valid RFC 4180 but
+  /// CsvTable refuses it.
+  /// \throws OutputError; std::logic_error if the number of cells is not that of the columns: such a row leaves no trace.
   template <class... Cells>
   void row(const Cells&... cells) {
     (append(cells), ...);
@@ -133,32 +124,27 @@ class CsvWriter {
 
   /// See OutputFile::prepare.
   void prepare() { file_.prepare(); }
-
   /// Puts the finished file in place, see OutputFile::commit.
   void commit() { file_.commit(); }
-
   /// See OutputFile::in_place.
   [[nodiscard]] bool in_place() const noexcept { return file_.in_place(); }
 
  private:
-  void append(double value);
-  template <std::integral Integer>
-  requires(!std::same_as<Integer, bool> && !std::same_as<Integer, char>) void append(Integer value) {
-    if constexpr (std::signed_integral<Integer>) {
-      append_signed(value);
+  template <class Cell>
+  void append(const Cell& cell) {
+    if constexpr (std::is_convertible_v<const Cell&, std::string_view>) {
+      append_field(quoted(cell));
+    } else if constexpr (std::is_same_v<Cell, double>) {
+      append_field(format_number(cell));
+    } else if constexpr (std::is_integral_v<Cell>) {
+      static_assert(!std::is_same_v<Cell, bool> && !std::is_same_v<Cell, char>, "not a number");
+      append_field(std::to_string(cell));
     } else {
-      append_unsigned(value);
+      for (const auto& part : cell) append(part);
     }
   }
-  void append(std::string_view value);
-  void append(const char* value) { append(std::string_view(value)); }
-  void append(std::span<const double> values);
-  void append(std::span<const std::string> texts);
-  void append(bool) = delete;
-  void append(char) = delete;
-  void append_signed(long long value);
-  void append_unsigned(unsigned long long value);
-  void separate();
+  static std::string quoted(std::string_view text);
+  void append_field(std::string_view field);
   void end_row();
 
   OutputFile file_;

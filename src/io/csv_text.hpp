@@ -1,29 +1,35 @@
 /// \file
-/// Cells and lines of CSV files as text, and the numbers in them.
+/// Bytes, lines and cells of CSV files, and the numbers in them.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace io::csv_text {
 
-/// Space or tab.
-bool is_blank(char c);
-std::string_view without_leading_blanks(std::string_view text);  ///< the rest of the text
-/// Without blanks at both ends.
-std::string_view trimmed(std::string_view text);
+/// All bytes of the file or pipe, up to and with the first block that holds a NUL: the parser refuses that byte with its
+/// place, and a source of zeros has no end.
+/// \throws InputError naming the file, if it cannot be read, is a directory or has more than 4 GiB.
+[[nodiscard]] std::string bytes_of(const std::filesystem::path& path);
 
+/// The rest of the text behind spaces and tabs.
+[[nodiscard]] std::string_view without_leading_blanks(std::string_view text);
+/// Without spaces and tabs at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
 /// The text in a message, as "value '...'".
-std::string quoted_value(std::string_view text);
+[[nodiscard]] std::string quoted_value(std::string_view text);
+/// What stands between the separators that are not in quotes, trimmed, with its quotes.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+/// Whether the line has as many cells as the comment above it has names, and one of them is a number.
+[[nodiscard]] bool is_row_below(std::string_view comment, std::string_view line);
 
-bool has_outside_quotes(std::string_view text, char wanted);  ///< whether the mark separates cells
-
-/// Whether the line is a row of as many cells as the comment above it names, and one of them is a number.
-bool is_row_below(std::string_view comment, std::string_view line);
-
-/// Each parser sets the value and returns what was expected, or nothing if the text fits.
-std::string_view parse_any_double(std::string_view text, double& value);
-std::string_view parse_finite(std::string_view text, double& value);  ///< neither nan nor inf
-std::string_view parse_integer(std::string_view text, long& value);   ///< no point, no exponent
+/// Sets the value and returns what was expected, or nothing if the text fits; nan and inf fit.
+[[nodiscard]] std::string_view parse_any_double(std::string_view text, double& value);
+/// The same of finite numbers only.
+[[nodiscard]] std::string_view parse_finite(std::string_view text, double& value);
+/// The same of numbers without point and exponent.
+[[nodiscard]] std::string_view parse_integer(std::string_view text, long& value);
 
 }  // namespace io::csv_text

@@ -1,32 +1,17 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/algorithm/string/replace.hpp>
 #include <charconv>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "io/csv.hpp"
 
 namespace io {
 namespace {
-
-constexpr std::size_t longest_number = 32;
-
-template <class Value>
-void append_chars(std::string& out, Value value) {
-  std::array<char, longest_number> digits;
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  out.append(digits.data(), result.ptr);
-}
-
-void append_number(std::string& out, double value) {
-  if (std::isnan(value)) {
-    out += "nan";
-  } else {
-    append_chars(out, value);
-  }
-}
 
 // A byte order mark is no text where it starts the file.
 bool starts_with_mark(std::string_view text) {
@@ -56,71 +41,35 @@ const std::vector<std::string>& checked(const std::vector<std::string>& columns)
 }  // namespace
 
 std::string format_number(double value) {
-  std::string text;
-  append_number(text, value);
-  return text;
+  if (std::isnan(value)) return "nan";
+  std::array<char, 32> digits;
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end};
 }
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
     : file_((checked(columns), path)), columns_(columns.size()) {
-  for (const std::string& column : columns) append(std::string_view(column));
-  end_row();
+  row(columns);
 }
 
-void CsvWriter::separate() {
+std::string CsvWriter::quoted(std::string_view text) {
+  return needs_quotes(text) ? fmt::format("\"{}\"", boost::replace_all_copy(std::string(text), "\"", "\"\""))
+                            : std::string(text);
+}
+
+void CsvWriter::append_field(std::string_view field) {
   if (cells_in_row_++ > 0) row_ += ',';
-}
-
-void CsvWriter::append(double value) {
-  separate();
-  append_number(row_, value);
-}
-
-void CsvWriter::append_signed(long long value) {
-  separate();
-  append_chars(row_, value);
-}
-
-void CsvWriter::append_unsigned(unsigned long long value) {
-  separate();
-  append_chars(row_, value);
-}
-
-void CsvWriter::append(std::string_view value) {
-  separate();
-  if (!needs_quotes(value)) {
-    row_ += value;
-    return;
-  }
-  row_ += '"';
-  for (const char c : value) {
-    if (c == '"') row_ += '"';
-    row_ += c;
-  }
-  row_ += '"';
-}
-
-void CsvWriter::append(std::span<const std::string> texts) {
-  for (const std::string& text : texts) {
-    append(std::string_view(text));
-  }
-}
-
-void CsvWriter::append(std::span<const double> values) {
-  for (const double value : values) append(value);
+  row_ += field;
 }
 
 void CsvWriter::end_row() {
-  const std::size_t found = cells_in_row_;
-  cells_in_row_ = 0;
+  const std::size_t found = std::exchange(cells_in_row_, 0);
+  const std::string line = std::exchange(row_, {}) + '\n';
   if (found != columns_) {
-    row_.clear();
     throw std::logic_error(fmt::format("io::CsvWriter: {}: row of {} cells, expected {}",
                                        file_.path().string(), found, columns_));
   }
-  row_ += '\n';
-  file_.write(row_);
-  row_.clear();
+  file_.write(line);
 }
 
 }  // namespace io

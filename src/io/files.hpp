@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/descriptor.hpp"
 #include "io/errors.hpp"
 
 namespace io {
@@ -48,21 +49,17 @@ class OutputFile {
   bool in_place() const noexcept { return in_place_; }
 
  private:
-  void open_descriptor(int descriptor);
-  void open_in_place();
-  void open_partial();
+  void open_partial(std::optional<unsigned> kept);
   void name_partial(unsigned mode);
   void flush();
-  void write_through(std::string_view text);
   void require_open() const;
-  void discard() noexcept;
   [[noreturn]] void fail(std::string_view action, int error, std::string_view expected) const;
 
   std::filesystem::path path_;
   std::filesystem::path target_;   // absolute, links followed
   std::filesystem::path partial_;  // empty as long as the temporary file has no name
-  int fd_ = -1;
-  bool prepared_ = false;
+  Descriptor file_;
+  bool is_prepared_ = false;
   bool is_stdout_ = false;
   bool in_place_ = true;
   std::string buffer_;

@@ -8,7 +8,7 @@
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <system_error>
 
 #include "io/errors.hpp"
@@ -36,58 +36,40 @@ constexpr std::size_t checksum_size = 9;  // a tab and eight digits
 
 Journal::Journal(const std::filesystem::path& output, const std::string& key)
     : output_(output), path_(output.string() + ".journal"), key_(key) {
-  open();
-  read_lines();
-}
-
-void Journal::open() {
-  file_.fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
+  file_.reset(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
   struct stat status {};
-  if (file_.fd < 0 || ::fstat(file_.fd, &status) != 0) {
-    fail(path_, errno);
+  if (file_.get() < 0 || ::fstat(file_.get(), &status) != 0) fail(path_, errno);
+  const auto refuse = [&](const char* why) { throw InputError(printable_path(path_) + why); };
+  if (!S_ISREG(status.st_mode)) refuse(": a pipe or a device: expected a journal, or no such file");
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
+    refuse(": in use by another process: expected to be alone");
   }
-  if (!S_ISREG(status.st_mode)) {
-    throw InputError(
-        fmt::format("{}: a pipe or a device: expected a journal, or no such file", printable_path(path_)));
-  }
-  if (::flock(file_.fd, LOCK_EX | LOCK_NB) != 0) {
-    throw InputError(
-        fmt::format("{}: in use by another process: expected to be alone", printable_path(path_)));
-  }
+  read_lines();
 }
 
 void Journal::read_lines() {
   std::ifstream file(path_, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  const std::string text = content.str();
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   std::size_t begin = 0;
   bool has_key = false;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
     const std::size_t size = end - begin;
     std::string row = text.substr(begin, size < checksum_size ? 0 : size - checksum_size);
     const bool intact = text.compare(begin, size + 1, line(row)) == 0;
-    if (!has_key && (!intact || row != key_)) {
-      fail_as_foreign(path_);
-    }
+    if (!has_key && (!intact || row != key_)) fail_as_foreign(path_);
     if (!intact) {
       was_damaged_ = true;
       break;
     }
-    if (has_key) {
-      rows_.push_back(std::move(row));
-    }
+    if (has_key) rows_.push_back(std::move(row));
     has_key = true;
     begin = end + 1;
   }
   // A first line that was cut off is a run's own if it begins as this one's; after a power failure it may be zeros.
-  if (!has_key && !line(key_).starts_with(text) && text.find_first_not_of('\0') != std::string::npos) {
+  if (!has_key && !line(key_).starts_with(text) && text.find_first_not_of('\0') != std::string::npos)
     fail_as_foreign(path_);
-  }
   cut_to(begin);
-  if (!has_key) {
-    write(line(key_));
-  }
+  if (!has_key) write(line(key_));
 }
 
 std::string Journal::line(std::string_view text) const {
@@ -99,36 +81,26 @@ std::string Journal::line(std::string_view text) const {
 
 void Journal::write(std::string_view text) {
   while (!text.empty()) {
-    const ssize_t written = ::write(file_.fd, text.data(), text.size());
-    if (written < 0 && errno != EINTR) {
-      fail(path_, errno);
-    }
+    const ssize_t written = ::write(file_.get(), text.data(), text.size());
+    if (written < 0 && errno != EINTR) fail(path_, errno);
     text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
   }
-  if (::fsync(file_.fd) != 0 && errno != EINVAL) {
-    fail(path_, errno);
-  }
+  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail(path_, errno);
 }
 
 void Journal::cut_to(std::size_t size) {
-  if (::ftruncate(file_.fd, static_cast<off_t>(size)) != 0) {
-    fail(path_, errno);
-  }
+  if (::ftruncate(file_.get(), static_cast<off_t>(size)) != 0) fail(path_, errno);
 }
 
 void Journal::append(const std::vector<std::string>& rows) {
   std::string text;
-  for (const std::string& row : rows) {
-    text += line(row);
-  }
+  for (const std::string& row : rows) text += line(row);
   write(text);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
 }
 
 void Journal::truncate(std::size_t count) {
-  if (count >= rows_.size()) {
-    return;
-  }
+  if (count >= rows_.size()) return;
   rows_.resize(count);
   std::size_t size = line(key_).size();
   for (const std::string& row : rows_) {
@@ -139,12 +111,8 @@ void Journal::truncate(std::size_t count) {
 
 void Journal::finish(std::string_view header) {
   OutputFile file(output_);
-  if (!header.empty()) {
-    file.write(fmt::format("{}\n", header));
-  }
-  for (const std::string& row : rows_) {
-    file.write(row + "\n");
-  }
+  if (!header.empty()) file.write(fmt::format("{}\n", header));
+  for (const std::string& row : rows_) file.write(row + "\n");
   file.commit();
   std::error_code ignored;
   const auto through_links = std::filesystem::canonical(path_, ignored);  // a link to the journal stays

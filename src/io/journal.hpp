@@ -1,12 +1,12 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/descriptor.hpp"
 
 namespace io {
 
@@ -46,14 +46,6 @@ class Journal {
   void finish(std::string_view header);
 
  private:
-  struct Descriptor {
-    int fd = -1;
-    ~Descriptor() {
-      if (fd >= 0) ::close(fd);
-    }
-  };
-
-  void open();
   void read_lines();
   [[nodiscard]] std::string line(std::string_view text) const;
   void write(std::string_view text);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
 #include <string_view>
 #include <utility>
 
@@ -15,20 +14,9 @@
 namespace io {
 namespace {
 
-constexpr auto silent_for = std::chrono::milliseconds(1500);
-constexpr auto redraw_every = std::chrono::milliseconds(100);
-constexpr std::size_t bar_width = 30;
-constexpr std::size_t default_columns = 80;
-
 bool can_draw() {
   const char* const terminal = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) != 0 && !(terminal != nullptr && std::string_view(terminal) == "dumb");
-}
-
-std::size_t terminal_columns() {
-  winsize size{};
-  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : default_columns;
 }
 
 void show(std::string_view text) {
@@ -39,40 +27,36 @@ void show(std::string_view text) {
 }  // namespace
 
 Progress::Progress(std::string label, std::size_t total, bool enabled)
-    : label_(std::move(label)),
-      total_(total),
-      active_(enabled && total > 0 && can_draw()),
-      start_(Clock::now()) {}
+    : label_(std::move(label)), total_(total), active_(enabled && total > 0 && can_draw()) {}
 
 Progress::~Progress() {
   if (drawn_) show("\r\x1B[K");
 }
 
 void Progress::advance(std::size_t n) {
+  constexpr auto silent_for = std::chrono::milliseconds(1500);
+  constexpr auto redraw_every = std::chrono::milliseconds(100);
   stop_if_interrupted();
   const std::size_t done = done_.fetch_add(n, std::memory_order_relaxed) + n;
-  if (!active_) return;
   const Clock::time_point now = Clock::now();
-  if (now - start_ < silent_for) return;
+  if (!active_ || now - start_ < silent_for) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock() || now - last_draw_ < redraw_every) return;
-  try {
-    draw(std::min(done, total_), now - start_);
-    last_draw_ = now;
-  } catch (const std::exception&) {
-    active_ = false;
-  }
+  draw(std::min(done, total_), now - start_);
+  last_draw_ = now;
 }
 
 void Progress::draw(std::size_t done, Clock::duration elapsed) {
+  constexpr std::size_t bar_width = 30;
   const double fraction = static_cast<double>(done) / static_cast<double>(total_);
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(bar_width));
   const double elapsed_s = std::chrono::duration<double>(elapsed).count();
   const double left_s = done > 0 ? elapsed_s * (1.0 - fraction) / fraction : 0.0;
-  std::string line =
-      fmt::format("{} [{}{}] {:3.0f} % {}/{}, {:.0f} s left", label_, std::string(filled, '#'),
-                  std::string(bar_width - filled, '.'), 100.0 * fraction, done, total_, left_s);
-  line.resize(std::min(line.size(), terminal_columns() - 1));
+  std::string line = fmt::format("{} [{:.<{}}] {:3.0f} % {}/{}, {:.0f} s left", label_,
+                                 std::string(filled, '#'), bar_width, 100.0 * fraction, done, total_, left_s);
+  winsize size{};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  line.resize(std::min<std::size_t>(line.size(), is_known ? size.ws_col - 1U : 79U));
   show("\r" + line + "\x1B[K");
   drawn_ = true;
 }

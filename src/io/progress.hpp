@@ -29,8 +29,8 @@ class Progress {
 
   std::string label_;
   std::size_t total_;
-  std::atomic<bool> active_;
-  Clock::time_point start_;
+  bool active_;
+  Clock::time_point start_ = Clock::now();
   std::atomic<std::size_t> done_{0};
   std::mutex mutex_;  // guards the two below
   Clock::time_point last_draw_{};

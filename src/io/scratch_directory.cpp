@@ -11,23 +11,14 @@
 #include "io/errors.hpp"
 
 namespace io {
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr int most_attempts = 20;
-constexpr int pause_ms = 5;
-
-}  // namespace
 
 ScratchDirectory::ScratchDirectory(const std::string& name) {
   const char* const parent = std::getenv("TMPDIR");
   const bool is_named = parent != nullptr && *parent != '\0';
-  path_ = fs::absolute(fs::path(is_named ? parent : "/tmp") / (name + "-XXXXXX")).string();
+  path_ = std::filesystem::absolute(std::filesystem::path(is_named ? parent : "/tmp") / (name + "-XXXXXX"));
   if (::mkdtemp(path_.data()) == nullptr) {
-    const int reason = errno;
     throw OutputError(fmt::format("{}: cannot be made: {}: expected {} to be a directory that can be written",
-                                  printable_path(path_), std::generic_category().message(reason),
+                                  printable_path(path_), std::generic_category().message(errno),
                                   is_named ? "TMPDIR" : "/tmp"));
   }
 }
@@ -35,10 +26,10 @@ ScratchDirectory::ScratchDirectory(const std::string& name) {
 ScratchDirectory::~ScratchDirectory() {
   // A program that has just been killed may finish a system call that makes one more file.
   std::error_code error;
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    fs::remove_all(path_, error);
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    std::filesystem::remove_all(path_, error);
     if (!error) return;
-    ::poll(nullptr, 0, pause_ms);
+    ::poll(nullptr, 0, 5);
   }
 }
 

@@ -23,6 +23,8 @@ using Header = std::array<long, 2>;  // rows and columns of a batch
 
 constexpr Header no_more = {-1, 0};
 
+using Text = std::array<char, 4096>;  // of an exception; what is longer is cut off
+
 // Errors of MPI itself end the program: that is MPI's default, and there is nothing to go on with.
 
 /// Waits without a processor to itself, which MPI's own waiting takes.
@@ -57,31 +59,6 @@ struct Parts {
   std::vector<int> counts, begins;
 };
 
-/// Texts of the ranks that failed, those of the others empty; on rank 0 alone.
-std::vector<std::string> gather(const std::string& text, int rank, int ranks) {
-  int size = static_cast<int>(text.size());
-  std::vector<int> sizes(static_cast<std::size_t>(ranks));
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Igather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, MPI_COMM_WORLD, &request);
-  wait_for(request);
-  std::vector<std::string> texts(sizes.size());
-  if (rank > 0) {
-    if (size > 0) {
-      MPI_Send(text.data(), size, MPI_CHAR, 0, 0, MPI_COMM_WORLD);
-    }
-    return texts;
-  }
-  for (int from = 1; from < ranks; ++from) {
-    std::string& received = texts[static_cast<std::size_t>(from)];
-    received.resize(static_cast<std::size_t>(sizes[static_cast<std::size_t>(from)]));
-    if (!received.empty()) {
-      MPI_Recv(received.data(), static_cast<int>(received.size()), MPI_CHAR, from, 0, MPI_COMM_WORLD,
-               MPI_STATUS_IGNORE);
-    }
-  }
-  return texts;
-}
-
 /// Evaluates this rank's part of a batch; every rank calls it after the header.
 /// \param points, log_likelihood  on rank 0 the batch
 /// \throws on rank 0, for the lowest rank whose model failed.
@@ -98,28 +75,29 @@ void evaluate(const tmcmc::LogLikelihood& model, const Header& header, int rank,
                 static_cast<int>(mine.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
   wait_for(request);
   std::exception_ptr failure;
-  std::string text;
+  Text text{};  // empty unless the model fails
   try {
     if (count > 0) {
       model(Eigen::MatrixXd(mine), values);
     }
   } catch (const std::exception& error) {
     failure = std::current_exception();
-    text = std::string(error.what()) + ' ';  // never empty
+    const std::string what = std::string(error.what()) + ' ';  // not empty
+    what.copy(text.data(), text.size() - 1);
   }
   MPI_Igatherv(values.data(), count, MPI_DOUBLE, log_likelihood, of_values.counts.data(),
                of_values.begins.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
   wait_for(request);
-  const auto texts = gather(text, rank, ranks);
-  if (rank > 0) {
-    return;
-  }
-  if (failure) {
+  std::vector<Text> texts(static_cast<std::size_t>(rank == 0 ? ranks : 0));
+  MPI_Igather(&text, sizeof text, MPI_CHAR, texts.data(), sizeof text, MPI_CHAR, 0, MPI_COMM_WORLD, &request);
+  wait_for(request);
+  if (rank == 0 && failure) {
     std::rethrow_exception(failure);
   }
-  for (const std::string& other : texts) {
-    if (!other.empty()) {
-      throw std::runtime_error(other.substr(0, other.size() - 1));
+  for (const Text& other : texts) {
+    if (other[0] != '\0') {
+      const std::string what = other.data();
+      throw std::runtime_error(what.substr(0, what.size() - 1));
     }
   }
 }
