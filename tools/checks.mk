@@ -33,7 +33,7 @@ identical: | sanitize-deps $(filter deps,$(MAKECMDGOALS))
 
 #: make format-check  whether clang-format would change a source
 format-check: | format-deps
-	find src experiments tests bench -name '*.[ch]pp' | xargs clang-format --dry-run --Werror
+	find src experiments examples tests bench -name '*.[ch]pp' | xargs clang-format --dry-run --Werror
 
 #: make sanitize    the test suite with the address and undefined-behaviour sanitizers; with the thread sanitizer where threads meet
 sanitize: | sanitize-deps
@@ -55,11 +55,11 @@ fuzz: | sanitize-deps
 	  build/asan-ubsan/bin/fuzz_$$t -max_total_time=$(FUZZ_SECONDS) -timeout=10 -rss_limit_mb=4096 -print_final_stats=1 -verbosity=0 \
 	    -artifact_prefix=build/fuzz/$$t- build/fuzz/corpus/$$t tests/fuzz/corpus/$$t || exit 1; done
 
-#: make tidy        clang-tidy over src, experiments and bench
+#: make tidy        clang-tidy over src, experiments, examples and bench
 tidy: | sanitize-deps
 	cmake -S . -B build/tidy -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DTMCMC_BUILD_TESTS=OFF \
 	  -DTMCMC_BUILD_BENCHMARKS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
-	run-clang-tidy -quiet -p build/tidy '/(src|experiments|bench)/.*\.cpp$$' 2>&1 | tools/tidy_report
+	run-clang-tidy -quiet -p build/tidy '/(src|experiments|examples|bench)/.*\.cpp$$' 2>&1 | tools/tidy_report
 
 #: make coverage    lines of src/ that the tests run
 coverage: | coverage-deps

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace examples {
 
 /// Measured natural frequencies, one entry a measurement.
 struct FrameObservations {
@@ -46,4 +46,4 @@ class FrameLikelihood {
   FrameObservations observations_;
 };
 
-}  // namespace experiments
+}  // namespace examples

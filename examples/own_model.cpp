@@ -1,24 +1,22 @@
 // A model of one's own, from measurements to a posterior: the storey stiffnesses of a two-storey shear frame from measured
-// natural frequencies (docs/own_model.md says how to put another in its place). The model is the C++ of support/shear_frame.hpp,
+// natural frequencies (docs/own_model.md says how to put another in its place). The model is the C++ of shear_frame.hpp,
 // or with --command any other program with the parameters of the file of the prior, called once a batch of points.
 //
 // Data: data/examples/, made by data/examples/simulate_frame.py; or the reader's own measurements.
 
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
-#include "errors/invalid_value.hpp"
+#include "frame_model.hpp"
 #include "inputs.hpp"
 #include "kept_run.hpp"
-#include "models/program.hpp"
 #include "models/ranks.hpp"
-#include "shear_frame.hpp"
 #include "storage/checkpoint.hpp"
 #include "storage/inference_data.hpp"
 #include "tmcmc/diagnostics.hpp"
 
+using namespace examples;
 using namespace experiments;
 
 namespace {
@@ -29,90 +27,6 @@ tmcmc::Options sampler_options(long evaluations, int threads) {
   tmcmc::Options options = tmcmc::recommended_options(evaluations, chains);
   options.threads = threads;
   return options;
-}
-
-/// The shear frame, or another program.
-struct Model {
-  std::vector<std::string> parameter_names;
-  tmcmc::BoxPrior prior;
-  tmcmc::LogLikelihood log_likelihood;
-  std::string description;               // one line, for the checkpoint
-  std::optional<FrameLikelihood> frame;  // none of another program
-};
-
-struct ModelOptions {
-  std::string observations = example("frame_observations.csv");
-  std::string prior = example("frame_prior.csv");
-  std::string command;
-  double timeout_seconds = 0.0;
-};
-
-Model shear_frame(const ModelOptions& options) {
-  const FrameLikelihood frame(read_frame_observations(options.observations));
-  std::string description = "shear_frame";
-  for (std::size_t i = 0; i < frame.observations().mode.size(); ++i) {
-    description += fmt::format(" {}:{}", frame.observations().mode[i],
-                               io::format_number(frame.observations().frequency_hz[i]));
-  }
-  const auto& names = FrameLikelihood::parameter_names();
-  return {names, read_prior(options.prior, names), frame, description, frame};
-}
-
-/// \param for_netcdf  whether the names have to be those of variables in a NetCDF file
-Model other_program(const ModelOptions& options, bool for_netcdf) {
-  const auto require_name = [&](const std::string& name) {
-    if (name.empty() || io::printable(name, std::string::npos) != name || name == "log_likelihood") {
-      throw errors::InvalidValue("parameter", name, "a printable name other than log_likelihood");
-    }
-    if (for_netcdf) {
-      storage::require_parameter_name(name);
-    }
-  };
-  auto [names, prior] = read_named_prior(options.prior, require_name);
-  models::Program program({options.command, names, options.timeout_seconds});
-  std::string description = "program with checksum " + storage::file_checksum(options.command);
-  if (options.observations != ModelOptions().observations) {
-    description += ", observations with checksum " + storage::file_checksum(options.observations);
-  }
-  description +=
-      fmt::format(", {}, parameters {}", io::printable_path(std::filesystem::canonical(options.command)),
-                  fmt::join(names, ","));
-  return {std::move(names), std::move(prior), std::move(program), description, std::nullopt};
-}
-
-storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {
-  storage::InferenceData data{.parameter_names = model.parameter_names,
-                              .samples = result.final.points,
-                              .log_likelihood = result.final.log_likelihood};
-  const auto stages = [&](const std::string& name, auto member) {
-    storage::Column column{name, {}};
-    for (const auto& stage : result.stages) {
-      column.second.push_back(static_cast<double>(stage.*member));
-    }
-    data.stages.push_back(std::move(column));
-  };
-  stages("beta", &tmcmc::StageRecord::beta);
-  stages("effective_sample_size", &tmcmc::StageRecord::effective_sample_size);
-  stages("acceptance_rate", &tmcmc::StageRecord::acceptance_rate);
-  stages("log_evidence_increment", &tmcmc::StageRecord::log_evidence_increment);
-  stages("evaluations", &tmcmc::StageRecord::evaluations);
-  if (model.frame) {
-    const auto& observations = model.frame->observations();
-    data.observed = {{"frequency_hz", observations.frequency_hz}};
-    data.constant = {{"mode", {observations.mode.begin(), observations.mode.end()}}};
-    data.pointwise_log_likelihood = {{"frequency_hz", model.frame->pointwise(result.final.points)}};
-  }
-  data.texts = {{"inference_library", "tmcmc_companion"},
-                {"inference_library_version", COMPANION_VERSION},
-                {"seed", std::to_string(seed)}};
-  data.numbers = {{"beta", result.final.beta},
-                  {"log_evidence", result.evidence.log_evidence},
-                  {"log_evidence_standard_error", result.evidence.standard_error}};
-  for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
-    data.numbers.emplace_back("effective_sample_size_" + data.parameter_names[j],
-                              result.diagnostics.effective_sample_size[static_cast<Eigen::Index>(j)]);
-  }
-  return data;
 }
 
 void report(const Program& program, const Model& model, const tmcmc::Result& result) {
@@ -151,7 +65,8 @@ int main(int argc, char** argv) {
   if (ranks.rank() > 0) {
     program.be_silent();
   }
-  ModelOptions model_options;
+  ModelOptions model_options{.observations = example("frame_observations.csv"),
+                             .prior = example("frame_prior.csv")};
   std::string netcdf_path, checkpoint_path;
   long evaluations = 31000;
   RunOptions run_options;
@@ -177,8 +92,9 @@ int main(int argc, char** argv) {
   run_options.add_threads_to(program);
 
   return program.run(argc, argv, [&] {
-    const Model model = model_options.command.empty() ? shear_frame(model_options)
-                                                      : other_program(model_options, !netcdf_path.empty());
+    model_options.for_netcdf = !netcdf_path.empty();
+    model_options.has_own_observations = model_options.observations != example("frame_observations.csv");
+    const Model model = make_model(model_options);
     const auto shared = ranks.share(model.log_likelihood);
     if (!shared) {
       return;  // this rank has evaluated for rank 0

@@ -9,11 +9,11 @@
 #include "io/errors.hpp"
 #include "io/interrupt.hpp"
 
-namespace experiments {
+namespace examples {
 
 tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
                        const std::string& checkpoint) {
-  const auto log_likelihood = interruptible(model);
+  const auto log_likelihood = experiments::interruptible(model);
   if (checkpoint.empty()) {
     return tmcmc::run({log_likelihood, run.prior}, run.options, run.key);
   }
@@ -51,4 +51,4 @@ tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikel
   }
 }
 
-}  // namespace experiments
+}  // namespace examples

@@ -6,7 +6,7 @@
 #include "io/csv.hpp"
 #include "portable_math/elementary.hpp"
 
-namespace experiments {
+namespace examples {
 
 namespace {
 
@@ -69,4 +69,4 @@ void FrameLikelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points
   }
 }
 
-}  // namespace experiments
+}  // namespace examples

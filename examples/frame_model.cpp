@@ -1,0 +1,90 @@
+#include "frame_model.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "errors/invalid_value.hpp"
+#include "inputs.hpp"
+#include "models/program.hpp"
+#include "storage/checkpoint.hpp"
+
+namespace examples {
+
+namespace {
+
+Model shear_frame(const ModelOptions& options) {
+  const FrameLikelihood frame(read_frame_observations(options.observations));
+  std::string description = "shear_frame";
+  for (std::size_t i = 0; i < frame.observations().mode.size(); ++i) {
+    description += fmt::format(" {}:{}", frame.observations().mode[i],
+                               io::format_number(frame.observations().frequency_hz[i]));
+  }
+  const auto& names = FrameLikelihood::parameter_names();
+  return {names, experiments::read_prior(options.prior, names), frame, description, frame};
+}
+
+Model other_program(const ModelOptions& options) {
+  const auto require_name = [&](const std::string& name) {
+    if (name.empty() || io::printable(name, std::string::npos) != name || name == "log_likelihood") {
+      throw errors::InvalidValue("parameter", name, "a printable name other than log_likelihood");
+    }
+    if (options.for_netcdf) {
+      storage::require_parameter_name(name);
+    }
+  };
+  auto [names, prior] = experiments::read_named_prior(options.prior, require_name);
+  models::Program program({options.command, names, options.timeout_seconds});
+  std::string description = "program with checksum " + storage::file_checksum(options.command);
+  if (options.has_own_observations) {
+    description += ", observations with checksum " + storage::file_checksum(options.observations);
+  }
+  description +=
+      fmt::format(", {}, parameters {}", io::printable_path(std::filesystem::canonical(options.command)),
+                  fmt::join(names, ","));
+  return {std::move(names), std::move(prior), std::move(program), description, std::nullopt};
+}
+
+}  // namespace
+
+Model make_model(const ModelOptions& options) {
+  return options.command.empty() ? shear_frame(options) : other_program(options);
+}
+
+storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {
+  storage::InferenceData data{.parameter_names = model.parameter_names,
+                              .samples = result.final.points,
+                              .log_likelihood = result.final.log_likelihood};
+  const auto stages = [&](const std::string& name, auto member) {
+    storage::Column column{name, {}};
+    for (const auto& stage : result.stages) {
+      column.second.push_back(static_cast<double>(stage.*member));
+    }
+    data.stages.push_back(std::move(column));
+  };
+  stages("beta", &tmcmc::StageRecord::beta);
+  stages("effective_sample_size", &tmcmc::StageRecord::effective_sample_size);
+  stages("acceptance_rate", &tmcmc::StageRecord::acceptance_rate);
+  stages("log_evidence_increment", &tmcmc::StageRecord::log_evidence_increment);
+  stages("evaluations", &tmcmc::StageRecord::evaluations);
+  if (model.frame) {
+    const auto& observations = model.frame->observations();
+    data.observed = {{"frequency_hz", observations.frequency_hz}};
+    data.constant = {{"mode", {observations.mode.begin(), observations.mode.end()}}};
+    data.pointwise_log_likelihood = {{"frequency_hz", model.frame->pointwise(result.final.points)}};
+  }
+  data.texts = {{"inference_library", "tmcmc_companion"},
+                {"inference_library_version", COMPANION_VERSION},
+                {"seed", std::to_string(seed)}};
+  data.numbers = {{"beta", result.final.beta},
+                  {"log_evidence", result.evidence.log_evidence},
+                  {"log_evidence_standard_error", result.evidence.standard_error}};
+  for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
+    data.numbers.emplace_back("effective_sample_size_" + data.parameter_names[j],
+                              result.diagnostics.effective_sample_size[static_cast<Eigen::Index>(j)]);
+  }
+  return data;
+}
+
+}  // namespace examples

@@ -1,0 +1,54 @@
+/// \file
+/// The models of own_model: the shear frame, or another program; and what is kept of a run of one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shear_frame.hpp"
+#include "storage/inference_data.hpp"
+#include "tmcmc/sampler.hpp"
+
+namespace examples {
+
+/// A log-likelihood, its prior, and what is known of both.
+struct Model {
+  /// One for each column of the points.
+  std::vector<std::string> parameter_names;
+  /// Bounds in the same order.
+  tmcmc::BoxPrior prior;
+  /// Of a batch of points.
+  tmcmc::LogLikelihood log_likelihood;
+  /// One line that names all that the values depend on, for the checkpoint.
+  std::string description;
+  /// The frame with its observations; none of another program.
+  std::optional<FrameLikelihood> frame;
+};
+
+/// Where a model and its data are.
+struct ModelOptions {
+  /// Measured natural frequencies; with a command, a file that the program reads.
+  std::string observations = {};
+  /// Whether they are the reader's own, and not those of data/examples.
+  bool has_own_observations = false;
+  /// Bounds of the parameters.
+  std::string prior = {};
+  /// Program that computes the log-likelihoods; empty: the shear frame.
+  std::string command = {};
+  /// Limit of one call of the program, s; 0: none.
+  double timeout_seconds = 0.0;
+  /// Whether the names have to be those of variables in a NetCDF file.
+  bool for_netcdf = false;
+};
+
+/// The program of the options, or the shear frame.
+/// \throws io::InputError naming file, line, column and value; models::ModelError if the program cannot be run.
+[[nodiscard]] Model make_model(const ModelOptions& options);
+
+/// Samples, stages and observations in the layout of ArviZ.
+[[nodiscard]] storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model,
+                                                    std::uint64_t seed);
+
+}  // namespace examples
