@@ -1,7 +1,7 @@
 # Checks of the code, of the committed files and of the machine's independence; docs/checks.md says what each has found.
 
 .PHONY: test verify verify-parts check-manifest another-seed identical format-check bench scaling sanitize tidy coverage mutations \
-  fuzz build-mpi test-mpi bench-mpi docs install
+  fuzz build-mpi test-mpi bench-mpi python test-python docs install
 
 #: make test        build and run the tests
 test: | $(filter deps,$(MAKECMDGOALS))
@@ -109,6 +109,21 @@ bench-mpi: build-mpi
 	cmake --build --preset mpi --target shared_batch
 	mpirun -np 1 build/mpi/bin/shared_batch
 	mpirun -np 2 build/mpi/bin/shared_batch
+
+# ---------------------------------------------------------------- the Python module (docs/python.md)
+
+#: make python      the Python module, into build/python/package, for PYTHON=/usr/bin/python3 (pybind11 is installed if missing)
+PYTHON ?= /usr/bin/python3
+python: | python-deps
+	@mkdir -p build
+	cmake --preset python -DPython_EXECUTABLE=$(PYTHON) $(CMAKE_FLAGS) >build/python.configure.log 2>&1 || \
+	  { cat build/python.configure.log; false; }
+	cmake --build --preset python
+
+#: make test-python  the same and its tests, and its installation by pip into a virtual environment
+test-python: python
+	ctest --preset python
+	python/tests/install $(PYTHON)
 
 # ---------------------------------------------------------------- the libraries elsewhere
 

@@ -9,9 +9,11 @@ format-deps: PACKAGES := clang-format
 sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
 coverage-deps: PACKAGES := gcovr
 mpi-deps: PACKAGES := libopenmpi-dev openmpi-bin
+python-deps: PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev librandom123-dev pybind11-dev python3-dev python3-numpy \
+  python3-scipy python3-xarray python3-h5netcdf python3-pytest python3-setuptools python3-pip python3-venv
 reader-deps: PACKAGES := python3-xarray python3-h5netcdf
 
-DEPS := deps doc-deps format-deps sanitize-deps coverage-deps mpi-deps reader-deps
+DEPS := deps doc-deps format-deps sanitize-deps coverage-deps mpi-deps python-deps reader-deps
 .PHONY: $(DEPS)
 #: make deps        install the Debian packages that are missing (root or sudo only if there are any)
 $(DEPS):

@@ -1,0 +1,271 @@
+"""The sampler from Python: right answers, same seed same bytes, errors that name the point, interrupts."""
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tmcmc
+
+BOX = {"a": (-3.0, 3.0), "b": (-2.0, 4.0)}
+SMALL = 2600
+
+
+def gaussian(points):
+    """Mean (0.5, 1), standard deviations (0.1, 0.2), normalised: the evidence is 1 over the volume of the box."""
+    z = (points - [0.5, 1.0]) / [0.1, 0.2]
+    return -0.5 * np.sum(z**2, axis=1) - math.log(2.0 * math.pi * 0.1 * 0.2)
+
+
+def fails_at(points, row_is_bad, failure):
+    if any(row_is_bad(row) for row in points):
+        failure()
+    return gaussian(points)
+
+
+def test_posterior_and_evidence_of_a_gaussian():
+    result = tmcmc.sample(gaussian, BOX, runs=4)
+    assert result.completed
+    assert abs(result.log_evidence + math.log(36.0)) < 5.0 * result.log_evidence_error < 0.5
+    table = result.summary()
+    for name, mean, sd in (("a", 0.5, 0.1), ("b", 1.0, 0.2)):
+        row = table[name]
+        error = sd / math.sqrt(row["ess"])
+        assert abs(row["mean"] - mean) < 5.0 * error
+        assert abs(row["sd"] - sd) < 5.0 * error
+        assert abs(row["50%"] - mean) < 8.0 * error
+        assert abs(row["97.5%"] - (mean + 1.96 * sd)) < 15.0 * error
+        assert row["r_hat"] < 1.02
+    assert "r_hat" in str(table) and "97.5%" in str(table)
+
+
+def test_shapes_of_a_result():
+    result = tmcmc.sample(gaussian, BOX, evaluations=SMALL, runs=2)
+    n = sum(len(run.samples) for run in result.runs)
+    assert result.names == ["a", "b"]
+    assert result.samples.shape == (n, 2)
+    assert result.weights.sum() == pytest.approx(1.0)
+    assert np.array_equal(result.log_likelihood, gaussian(result.samples))
+    for run in result.runs:
+        assert run.evaluations <= SMALL
+        assert run.stages["beta"][-1] == run.beta == 1.0
+        assert np.all(np.diff(run.stages["beta"]) > 0.0)
+        assert len({len(column) for column in run.stages.values()}) == 1
+    assert math.isnan(tmcmc.sample(gaussian, BOX, evaluations=SMALL).summary()["a"]["r_hat"])
+
+
+def test_same_seed_same_bytes_and_runs_do_not_depend_on_their_number():
+    first, second = (tmcmc.sample(gaussian, BOX, evaluations=SMALL, seed=7, runs=runs) for runs in (1, 2))
+    assert first.runs[0].samples.tobytes() == second.runs[0].samples.tobytes()
+    assert first.log_evidence == second.runs[0].log_evidence
+    assert not np.array_equal(second.runs[0].samples[:50], second.runs[1].samples[:50])
+    other = tmcmc.sample(gaussian, BOX, evaluations=SMALL, seed=8)
+    assert not np.array_equal(first.samples[:50], other.samples[:50])
+
+
+def test_the_callback_may_keep_and_change_its_points():
+    kept = []
+
+    def careless(points):
+        values = gaussian(points)
+        kept.append(points)
+        points[:] = 0.0
+        return values
+
+    careful = tmcmc.sample(gaussian, BOX, evaluations=SMALL)
+    assert tmcmc.sample(careless, BOX, evaluations=SMALL).samples.tobytes() == careful.samples.tobytes()
+    assert all(np.all(points == 0.0) for points in kept)
+
+
+def test_minus_infinity_excludes_points():
+    result = tmcmc.sample(lambda x: np.where(x[:, 0] > 0.5, gaussian(x), -np.inf), BOX, evaluations=SMALL)
+    assert result.samples[:, 0].min() > 0.5
+    with pytest.raises(tmcmc.SamplingError):
+        tmcmc.sample(lambda x: np.full(len(x), -np.inf), BOX, evaluations=SMALL)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_values_that_are_no_log_likelihoods_name_the_point(value):
+    with pytest.raises(tmcmc.LogLikelihoodError, match=rf"returned {value}: .* point \d+ of \d+ \(a = .*, b = ") as caught:
+        tmcmc.sample(lambda x: np.where(x[:, 0] > 1.0, value, gaussian(x)), BOX, evaluations=SMALL)
+    assert caught.value.point["a"] > 1.0
+
+
+def test_an_exception_names_the_first_row_that_raises_it():
+    def failure():
+        raise ZeroDivisionError("the mesh is too coarse")
+
+    with pytest.raises(tmcmc.LogLikelihoodError, match=r"ZeroDivisionError: the mesh .* point \d+ of \d+ \(a = ") as caught:
+        tmcmc.sample(lambda x: fails_at(x, lambda row: row[0] > 2.9, failure), BOX, evaluations=SMALL)
+    assert caught.value.point["a"] > 2.9
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (lambda x: gaussian(x)[:, None], r"shape \(200, 1\): expected \(200,\)"),
+        (lambda x: gaussian(x)[:-1], r"shape \(199,\): expected \(200,\)"),
+        (lambda x: 1.0, r"shape \(\): expected \(200,\)"),
+        (lambda x: None, "NoneType|returned nan|shape"),
+        (lambda x: ["abc"] * len(x), "returned list: expected 200 numbers"),
+    ],
+)
+def test_wrong_shapes_and_types_are_told(values, message):
+    with pytest.raises(tmcmc.LogLikelihoodError, match=message):
+        tmcmc.sample(values, BOX, evaluations=SMALL)
+
+
+def test_arguments_that_make_no_sense_are_refused():
+    for prior in ({}, {"a": ("normal", 0.0)}, {"a": ("normal", 0.0, -1.0)}, {"a": ("nonsense", 1.0)}, {"a": (1.0,)}, {"a": (1.0, 1.0)}, {"a": (0.0, math.inf)}, {"a": (math.nan, 1.0)}):
+        with pytest.raises(ValueError, match="prior|expected"):
+            tmcmc.sample(gaussian, prior)
+    with pytest.raises(TypeError, match="prior of a"):
+        tmcmc.sample(gaussian, {"a": 3.0})
+    with pytest.raises(ValueError, match="evaluations|budget"):
+        tmcmc.sample(gaussian, BOX, evaluations=100)
+    with pytest.raises(ValueError, match="runs = 0"):
+        tmcmc.sample(gaussian, BOX, runs=0)
+
+
+def scipy_priors():
+    stats = pytest.importorskip("scipy.stats", reason="scipy is not installed (make python-deps)")
+    return [
+        stats.uniform(1.0, 2.0),
+        stats.loguniform(0.1, 10.0),
+        stats.norm(1.0, 0.5),
+        stats.truncnorm(-1.0, 2.0, loc=1.0, scale=0.5),
+        stats.halfnorm(scale=2.0),
+        stats.lognorm(0.5, scale=2.0),
+        stats.expon(scale=3.0),
+        stats.gamma(2.5, scale=0.5),
+        stats.invgamma(8.0, scale=3.0),
+        stats.beta(2.0, 3.0, loc=-1.0, scale=4.0),
+        stats.weibull_min(1.5, scale=2.0),
+        stats.gumbel_r(1.0, 0.5),
+        stats.t(7.0, loc=1.0, scale=0.5),
+        stats.triang(0.25, loc=1.0, scale=2.0),
+    ]
+
+
+def test_priors_of_scipy_are_those_distributions():
+    """Under a likelihood of 1 the posterior is the prior, and the first stage has all samples."""
+    priors = scipy_priors()
+    result = tmcmc.sample(lambda x: np.zeros(len(x)), priors, evaluations=31000)
+    assert result.names == [f"x{i}" for i in range(len(priors))]
+    assert result.log_evidence == pytest.approx(0.0, abs=1e-12)
+    for j, prior in enumerate(priors):
+        levels = prior.cdf(result.samples[:, j])
+        size = result.runs[0].effective_sample_size[j]
+        distance = np.max(np.abs(np.sort(levels) - np.arange(0.5, len(levels)) / len(levels)))
+        assert distance < 2.5 / math.sqrt(size), prior.dist.name  # Kolmogorov: exceeded with a chance of 7e-6
+
+
+def test_priors_by_name_position_and_scipy_are_the_same():
+    stats = pytest.importorskip("scipy.stats", reason="scipy is not installed (make python-deps)")
+    by_name = {"a": ("normal", {"mean": 0.0, "sd": 2.0}), "b": ("uniform", -2.0, 4.0)}
+    by_scipy = {"a": stats.norm(scale=2.0), "b": stats.uniform(loc=-2.0, scale=6.0)}
+    by_position = {"a": ("normal", 0, 2), "b": (-2, 4)}
+    first, *others = (
+        tmcmc.sample(gaussian, prior, evaluations=SMALL).samples.tobytes()
+        for prior in (by_name, by_scipy, by_position)
+    )
+    assert others == [first, first]
+    assert ("mean", "sd") in tmcmc.distributions()["log_normal"]
+    for refused in (stats.cauchy(), stats.expon(loc=1.0), stats.norm(scale=-1.0)):
+        with pytest.raises(ValueError, match="prior of a: "):
+            tmcmc.sample(gaussian, {"a": refused})
+
+
+def test_a_budget_that_does_not_suffice_is_warned_of():
+    narrow = lambda x: gaussian(x / 1e-6)
+    with pytest.warns(tmcmc.SamplingWarning):
+        result = tmcmc.sample(narrow, {"a": (-1e3, 1e3), "b": (-1e3, 1e3)}, evaluations=SMALL)
+    assert result.completed == (result.runs[0].beta == 1.0)
+
+
+def test_other_threads_run_while_the_sampler_works():
+    counted = 0
+    stop = threading.Event()
+
+    def count():
+        nonlocal counted
+        while not stop.is_set():
+            counted += 1
+            time.sleep(0.0005)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    tmcmc.sample(gaussian, BOX)
+    stop.set()
+    thread.join()
+    assert counted > 5
+
+
+def test_ctrl_c_ends_a_run_within_a_second():
+    program = (
+        "import sys, time, numpy as np, tmcmc\n"
+        "def slow(x):\n"
+        "    print('called', flush=True); time.sleep(0.02); return np.zeros(len(x))\n"
+        "try: tmcmc.sample(slow, {'a': (0, 1)}, evaluations=3100000)\n"
+        "except KeyboardInterrupt: print('interrupted', flush=True)\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "called\n"
+    start = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    output = process.communicate(timeout=10)[0]
+    assert time.monotonic() - start < 1.0
+    assert output.endswith("interrupted\n")
+    assert process.returncode == 0
+
+
+def test_ctrl_c_ends_a_run_of_a_compiled_function():
+    """Whose calls are short, and give Python no chance of its own to look for signals."""
+    program = (
+        "import functools, numpy as np, tmcmc\n"
+        "print('called', flush=True)\n"
+        "try: tmcmc.sample(functools.partial(np.sum, axis=1), {'a': (0, 1)}, evaluations=3000000)\n"
+        "except KeyboardInterrupt: print('interrupted', flush=True)\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "called\n"
+    time.sleep(0.5)
+    start = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=20)[0] == "interrupted\n"
+    assert time.monotonic() - start < 1.0
+
+
+def test_netcdf_has_the_layout_of_inference_data(tmp_path):
+    xarray = pytest.importorskip("xarray", reason="xarray is not installed (make python-deps)")
+    pytest.importorskip("h5netcdf", reason="h5netcdf is not installed (make python-deps)")
+    result = tmcmc.sample(gaussian, BOX, evaluations=SMALL, runs=3)
+    result.to_netcdf(tmp_path / "result.nc")
+    draws = min(len(run.samples) for run in result.runs)
+    with xarray.open_dataset(tmp_path / "result.nc", group="posterior") as posterior:
+        assert dict(posterior.sizes) == {"chain": 3, "draw": draws}
+        assert list(posterior.data_vars) == ["a", "b"]
+        shortest = next(i for i, run in enumerate(result.runs) if len(run.samples) == draws)
+        assert np.array_equal(posterior["b"].values[shortest], result.runs[shortest].samples[:, 1])
+        assert posterior.attrs["log_evidence"] == result.log_evidence
+    with xarray.open_dataset(tmp_path / "result.nc", group="sample_stats") as statistics:
+        assert statistics["lp"].dims == ("chain", "draw")
+
+
+def test_the_program_in_the_readme_runs_as_printed(tmp_path):
+    readme = (Path(__file__).parents[2] / "README.md").read_text()
+    program = readme.split("```python\n")[1].split("```")[0]
+    assert len(program.strip().splitlines()) <= 12
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, cwd=tmp_path, env=os.environ
+    )
+    assert done.returncode == 0, done.stderr
+    assert "log-evidence" in done.stdout

@@ -1,0 +1,166 @@
+"""What a call of tmcmc.sample returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+
+Array = NDArray[np.float64]
+QUANTILES = (0.025, 0.25, 0.5, 0.75, 0.975)
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of the sampler; its samples have equal weights."""
+
+    samples: Array  #: (n, d), a row a sample
+    log_likelihood: Array  #: n
+    log_evidence: float  #: with the prior normalised
+    log_evidence_error: float  #: standard error, from this run alone
+    effective_sample_size: Array  #: of each parameter, d
+    stages: dict[str, Any]  #: an array a quantity, with an entry a stage
+    warnings: list[str]  #: empty for a run that looks healthy
+    beta: float  #: 1 unless the budget did not suffice: then the samples are not those of the posterior
+    evaluations: int  #: log-likelihoods that were computed
+    stop: str  #: why the run ended
+
+
+class Summary(dict[str, dict[str, float]]):
+    """Statistics by name for each parameter; prints as a table."""
+
+    def __str__(self) -> str:
+        columns = list(next(iter(self.values())))
+        width = max(len("parameter"), *(len(name) for name in self))
+        lines = [" ".join([f"{'parameter':<{width}}", *(f"{column:>10}" for column in columns)])]
+        for name, row in self.items():
+            lines.append(" ".join([f"{name:<{width}}", *(f"{row[column]:>10.4g}" for column in columns)]))
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class Result:
+    """Samples, evidence and diagnostics of all runs."""
+
+    names: list[str]  #: of the parameters, d
+    runs: list[Run]  #: in their order
+    seed: int
+
+    @property
+    def samples(self) -> Array:
+        """Samples of all runs, (n, d)."""
+        return np.concatenate([run.samples for run in self.runs])
+
+    @property
+    def weights(self) -> Array:
+        """Weights of the samples, which sum to 1: each run counts the same."""
+        sizes = [len(run.samples) for run in self.runs]
+        return np.concatenate([np.full(size, 1.0 / (size * len(sizes))) for size in sizes])
+
+    @property
+    def log_likelihood(self) -> Array:
+        """Log-likelihoods of the samples."""
+        return np.concatenate([run.log_likelihood for run in self.runs])
+
+    @property
+    def log_evidence(self) -> float:
+        """Mean over the runs."""
+        return float(np.mean([run.log_evidence for run in self.runs]))
+
+    @property
+    def log_evidence_error(self) -> float:
+        """Standard error of log_evidence: from the runs' own errors or from the scatter between them, whichever is larger."""
+        count = len(self.runs)
+        within = float(np.sqrt(np.sum([run.log_evidence_error**2 for run in self.runs]))) / count
+        if count == 1:
+            return within
+        return max(within, float(np.std([run.log_evidence for run in self.runs], ddof=1)) / count**0.5)
+
+    @property
+    def stages(self) -> list[dict[str, Any]]:
+        """The stages of each run."""
+        return [run.stages for run in self.runs]
+
+    @property
+    def completed(self) -> bool:
+        """Whether all runs reached the posterior."""
+        return all(run.beta == 1.0 for run in self.runs)
+
+    def summary(self) -> Summary:
+        """Mean, sd, quantiles, effective sample size (ess) and R-hat between the runs (nan for one run) of each parameter."""
+        weights, samples = self.weights, self.samples
+        table = Summary()
+        for j, name in enumerate(self.names):
+            x = samples[:, j]
+            order = np.argsort(x, kind="stable")
+            # the middle of each sample's step of the weighted distribution function
+            level = np.cumsum(weights[order]) - 0.5 * weights[order]
+            mean = float(np.sum(weights * x))
+            row = {"mean": mean, "sd": float(np.sqrt(np.sum(weights * (x - mean) ** 2)))}
+            row |= {f"{100 * q:g}%": float(np.interp(q, level, x[order])) for q in QUANTILES}
+            row["ess"] = float(sum(run.effective_sample_size[j] for run in self.runs))
+            row["r_hat"] = self._r_hat(j)
+            table[name] = row
+        return table
+
+    def _r_hat(self, j: int) -> float:
+        """Gelman and Rubin (1992), with runs in the place of chains and effective samples in that of draws."""
+        if len(self.runs) == 1:
+            return float("nan")
+        n = float(np.mean([run.effective_sample_size[j] for run in self.runs]))
+        within = float(np.mean([np.var(run.samples[:, j], ddof=1) for run in self.runs]))
+        between = float(np.var([np.mean(run.samples[:, j]) for run in self.runs], ddof=1))
+        return float(np.sqrt((n - 1.0) / n + between / within)) if within > 0.0 else float("nan")
+
+    def to_xarray(self) -> dict[str, Any]:
+        """The groups posterior and sample_stats in the layout of ArviZ's InferenceData, as xarray.Dataset; runs are chains.
+
+        Chains must have one length: of a run with more samples than the shortest, evenly spaced ones are taken.
+        """
+        try:
+            import xarray
+        except ImportError as error:
+            raise ImportError("to_xarray and to_netcdf need xarray (Debian: python3-xarray)") from error
+        length = min(len(run.samples) for run in self.runs)
+        rows = [np.arange(length) * len(run.samples) // length for run in self.runs]
+        coordinates = {"chain": np.arange(len(self.runs)), "draw": np.arange(length)}
+        attributes = {
+            "inference_library": "tmcmc_companion",
+            "inference_library_version": _core.__version__,
+            "seed": str(self.seed),
+            "log_evidence": self.log_evidence,
+            "log_evidence_standard_error": self.log_evidence_error,
+        }
+
+        def dataset(columns: dict[str, list[Array]]) -> Any:
+            variables = {name: (("chain", "draw"), np.stack(values)) for name, values in columns.items()}
+            return xarray.Dataset(variables, coordinates, attributes)
+
+        return {
+            "posterior": dataset(
+                {name: [run.samples[r, j] for run, r in zip(self.runs, rows)] for j, name in enumerate(self.names)}
+            ),
+            "sample_stats": dataset({"lp": [run.log_likelihood[r] for run, r in zip(self.runs, rows)]}),
+        }
+
+    def to_netcdf(self, path: str | PathLike[str]) -> None:
+        """Writes to_xarray() to a NetCDF file that arviz.from_netcdf reads; needs h5netcdf or netCDF4."""
+        mode = "w"
+        for group, dataset in self.to_xarray().items():
+            dataset.to_netcdf(path, mode=mode, group=group, engine=_engine())
+            mode = "a"
+
+
+def _engine() -> str:
+    for engine, module in (("netcdf4", "netCDF4"), ("h5netcdf", "h5netcdf")):
+        try:
+            __import__(module)
+        except ImportError:
+            continue
+        return engine
+    raise ImportError("to_netcdf needs h5netcdf (Debian: python3-h5netcdf) or netCDF4 (python3-netcdf4)")
