@@ -9,150 +9,53 @@
 
 #include "estimation/laplace.hpp"
 #include "inputs.hpp"
-#include "portable_math/elementary.hpp"
+#include "replication/posterior_tables.hpp"
 
 using namespace experiments;
 
 namespace {
 
-constexpr std::array<double, 5> quantile_levels = {0.025, 0.25, 0.5, 0.75, 0.975};
-
-const estimation::TabulatedDensity& marginal(const estimation::ExactPosterior& posterior, std::size_t p) {
-  return posterior.marginal(static_cast<friction::Parameter>(p));
-}
-
-/// What the estimates of independent runs are off, against the exact value.
-struct Accuracy {
-  double mean, bias, standard_error, spread, rmse;
-};
-
-Accuracy accuracy(const std::vector<double>& estimates, double exact) {
-  const auto n = static_cast<double>(estimates.size());
-  const auto m = replication::moments(estimates);
-  const double spread = estimates.size() > 1 ? m.standard_deviation : std::nan("");
-  double squares = 0.0;
-  for (const double x : estimates) {
-    squares += (x - exact) * (x - exact);
-  }
-  return {m.mean, m.mean - exact, spread / std::sqrt(n), spread, std::sqrt(squares / n)};
-}
-
-/// Columns by name; read before anything is written.
-struct Columns {
-  GroupedColumns file;
-  std::vector<std::size_t> places;  ///< of the names asked for
-
-  Columns(const std::string& path, const std::vector<std::string>& names, const char* expected,
-          void (*check)(const io::CsvTable&) = nullptr) {
-    if (path.empty()) {
-      return;
+void report_parameters(const Program& program, std::optional<io::CsvWriter>& csv,
+                       const estimation::ExactPosterior& posterior,
+                       const estimation::LaplaceApproximation& laplace,
+                       const estimation::LeastSquaresFit& fit) {
+  const std::array<double, friction::parameter_count> least_squares = {
+      fit.friction_force.estimate, fit.natural_frequency.estimate, fit.friction_force.noise_ml,
+      fit.natural_frequency.noise_ml};
+  program.report("{:<22} {:>10} {:>10} {:>10} {:>10} {:>10} {:>22} {:>13}\n", "", "mean", "sd", "2.5 %",
+                 "median", "97.5 %", "Laplace mode +- sd", "least squares");
+  for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
+    const auto& exact = posterior.marginal(static_cast<friction::Parameter>(p));
+    std::vector<std::string> quantiles;
+    for (const double level : {0.025, 0.25, 0.5, 0.75, 0.975}) {
+      quantiles.push_back(digits(exact.quantile(level)));
     }
-    const auto table = io::CsvTable::read(path);
-    file = read_samples(table);
-    for (const auto& name : names) {
-      const auto found = std::find(file.columns.begin(), file.columns.end(), name);
-      if (found == file.columns.end()) {
-        throw io::InputError(fmt::format("{}: no column '{}': expected {}", path, name, expected));
-      }
-      places.push_back(static_cast<std::size_t>(found - file.columns.begin()));
-    }
-    if (check != nullptr) {
-      check(table);
+    program.report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13}\n",
+                   parameter_columns[p], exact.mean(), exact.standard_deviation(), exact.quantile(0.025),
+                   exact.quantile(0.5), exact.quantile(0.975),
+                   fmt::format("{} +- {}", or_undefined("{:.5f}", laplace.mode[p]),
+                               or_undefined("{:.5f}", laplace.standard_deviation[p])),
+                   or_undefined("{:.5f}", least_squares[p]));
+    if (csv) {
+      csv->row(parameter_columns[p], digits(exact.mean()), digits(exact.standard_deviation()), quantiles,
+               digits(laplace.mode[p], 8), digits(laplace.standard_deviation[p], 8),
+               digits(least_squares[p], 8));
     }
   }
-};
-
-/// One row a run, and no negative standard deviation.
-void require_runs(const io::CsvTable& table) {
-  require_runs_once(table);
-  for (const auto& name : parameter_columns) {
-    static_cast<void>(nonnegative_numbers(table, "sd_" + name));
-  }
 }
 
-/// What the runs estimate: mean and standard deviation of each parameter, log-evidence.
-std::vector<std::string> estimated_quantities() {
-  std::vector<std::string> names;
-  for (const auto& parameter : parameter_columns) {
-    names.push_back("mean_" + parameter);
-    names.push_back("sd_" + parameter);
-  }
-  names.emplace_back("log_evidence");
-  return names;
-}
-
-void compare_samplers(const Program& program, std::optional<io::CsvWriter>& csv, const Columns& runs,
-                      const estimation::ExactPosterior& posterior) {
-  const auto names = estimated_quantities();
+void compare_samplers(const Program& program, std::optional<io::CsvWriter>& csv,
+                      const replication::GroupedColumns& runs, const estimation::ExactPosterior& posterior) {
   program.report("\n{:<10} {:<28} {:>10} {:>11} {:>10} {:>10} {:>6}\n", "sampler", "quantity", "exact",
                  "bias", "+-", "spread", "ESS");
-  for (std::size_t s = 0; s < runs.file.samplers.size(); ++s) {
-    for (std::size_t q = 0; q < names.size(); ++q) {
-      const bool evidence = q + 1 == names.size();
-      const bool mean = !evidence && q % 2 == 0;
-      const auto& density = marginal(posterior, evidence ? 0 : q / 2);
-      const double sd = density.standard_deviation();
-      const double exact = evidence ? posterior.log_evidence() : mean ? density.mean() : sd;
-      std::vector<double> estimates;
-      for (const auto& run : runs.file.values[s][runs.places[q]]) {
-        estimates.push_back(run.front());
-      }
-      const Accuracy a = accuracy(estimates, exact);
-      const double size = mean ? sd * sd / (a.spread * a.spread) : std::nan("");
-      program.report("{:<10} {:<28} {:>10.5g} {:>+11.3g} {:>10.2g} {:>10.3g} {:>6}\n", runs.file.samplers[s],
-                     names[q], exact, a.bias, a.standard_error, a.spread,
-                     std::isfinite(size) ? fmt::format("{:.1f}", size) : "");
-      if (csv) {
-        csv->row(runs.file.samplers[s], names[q], estimates.size(), digits(exact), digits(a.mean),
-                 digits(a.bias), digits(a.standard_error), digits(a.spread), digits(a.rmse), digits(size));
-      }
-    }
-  }
-}
-
-/// From where to where the marginal is drawn: all but 2e-4 of its probability.
-estimation::Interval drawn_range(const estimation::TabulatedDensity& exact) {
-  return {exact.quantile(1e-4), exact.quantile(1.0 - 1e-4)};
-}
-
-void write_marginals(io::CsvWriter& csv, long points, const estimation::ExactPosterior& posterior,
-                     const estimation::LaplaceApproximation& laplace) {
-  for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
-    const auto& exact = marginal(posterior, p);
-    const auto range = drawn_range(exact);
-    const double sd = laplace.standard_deviation[p];
-    for (long i = 0; i < points; ++i) {
-      const double x = range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1);
-      const double z = (x - laplace.mode[p]) / sd;
-      const double normal = portable_math::exp(-0.5 * z * z) / (sd * std::sqrt(2.0 * std::numbers::pi));
-      csv.row(parameter_columns[p], digits(x), digits(exact.density(x)), digits(exact.cdf(x)),
-              digits(normal, 8));
-    }
-  }
-}
-
-void write_histograms(io::CsvWriter& csv, const Columns& samples, long bins,
-                      const estimation::ExactPosterior& posterior) {
-  for (std::size_t s = 0; s < samples.file.samplers.size(); ++s) {
-    for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
-      const auto range = drawn_range(marginal(posterior, p));
-      const double width = range.width() / static_cast<double>(bins);
-      std::vector<long> counts(static_cast<std::size_t>(bins));
-      long total = 0;
-      for (const auto& run : samples.file.values[s][samples.places[p]]) {
-        for (const double x : run) {
-          const double bin = std::floor((x - range.lower) / width);
-          if (bin >= 0.0 && bin < static_cast<double>(bins)) {
-            ++counts[static_cast<std::size_t>(bin)];
-          }
-          ++total;
-        }
-      }
-      for (std::size_t b = 0; b < counts.size(); ++b) {
-        const double low = range.lower + width * static_cast<double>(b);
-        csv.row(samples.file.samplers[s], parameter_columns[p], digits(low), digits(low + width),
-                digits(static_cast<double>(counts[b]) / (static_cast<double>(total) * width)));
-      }
+  for (const auto& e : replication::errors_of(runs, posterior)) {
+    program.report("{:<10} {:<28} {:>10.5g} {:>+11.3g} {:>10.2g} {:>10.3g} {:>6}\n", e.sampler, e.quantity,
+                   e.exact, e.error.bias, e.error.standard_error, e.error.spread,
+                   std::isfinite(e.effective_size) ? fmt::format("{:.1f}", e.effective_size) : "");
+    if (csv) {
+      csv->row(e.sampler, e.quantity, e.runs, digits(e.exact), digits(e.error.mean), digits(e.error.bias),
+               digits(e.error.standard_error), digits(e.error.spread), digits(e.error.root_mean_square),
+               digits(e.effective_size));
     }
   }
 }
@@ -195,8 +98,12 @@ int main(int argc, char** argv) {
     if (!histogram_output.empty() && samples_input.empty()) {
       throw io::InputError("--histogram-output: expected --samples-input with the samples to count");
     }
-    const Columns runs(runs_input, estimated_quantities(), "the runs of sampling_study", require_runs);
-    const Columns samples(samples_input, parameter_columns, "the samples of sampling_study");
+    const auto runs =
+        runs_input.empty() ? replication::GroupedColumns() : replication::read_estimates(runs_input);
+    const auto samples = samples_input.empty()
+                             ? replication::GroupedColumns()
+                             : read_samples(io::CsvTable::read(samples_input), parameter_columns,
+                                            "the samples of sampling_study");
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
@@ -205,9 +112,6 @@ int main(int argc, char** argv) {
     const auto fit = estimation::fit_least_squares(observations, reading.physics);
     const auto laplace =
         estimation::laplace_approximation(observations, reading.physics, fit, bounds_of(prior));
-    const std::array<double, friction::parameter_count> least_squares = {
-        fit.friction_force.estimate, fit.natural_frequency.estimate, fit.friction_force.noise_ml,
-        fit.natural_frequency.noise_ml};
     const double error = posterior.relative_error();
     const double exceedance = posterior.marginal(friction::friction_force).exceedance(threshold);
 
@@ -222,25 +126,7 @@ int main(int argc, char** argv) {
 
     program.report("Exact posterior of {} ({} observations, reading {})\n", inputs.observations,
                    observations.size(), physics.reading_name);
-    program.report("{:<22} {:>10} {:>10} {:>10} {:>10} {:>10} {:>22} {:>13}\n", "", "mean", "sd", "2.5 %",
-                   "median", "97.5 %", "Laplace mode +- sd", "least squares");
-    for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
-      const auto& exact = marginal(posterior, p);
-      std::vector<std::string> quantiles(quantile_levels.size());
-      std::transform(quantile_levels.begin(), quantile_levels.end(), quantiles.begin(),
-                     [&](double level) { return digits(exact.quantile(level)); });
-      program.report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13}\n",
-                     parameter_columns[p], exact.mean(), exact.standard_deviation(), exact.quantile(0.025),
-                     exact.quantile(0.5), exact.quantile(0.975),
-                     fmt::format("{} +- {}", or_undefined("{:.5f}", laplace.mode[p]),
-                                 or_undefined("{:.5f}", laplace.standard_deviation[p])),
-                     or_undefined("{:.5f}", least_squares[p]));
-      if (csv) {
-        csv->row(parameter_columns[p], digits(exact.mean()), digits(exact.standard_deviation()), quantiles,
-                 digits(laplace.mode[p], 8), digits(laplace.standard_deviation[p], 8),
-                 digits(least_squares[p], 8));
-      }
-    }
+    report_parameters(program, csv, posterior, laplace, fit);
     program.report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {}\n",
                    posterior.log_evidence(), std::max(error, 1e-12),
                    or_undefined("{:.3f}", laplace.log_evidence));
@@ -262,10 +148,16 @@ int main(int argc, char** argv) {
       compare_samplers(program, accuracies, runs, posterior);
     }
     if (marginals) {
-      write_marginals(*marginals, points, posterior, laplace);
+      for (const auto& m : replication::marginal_points(posterior, laplace, points)) {
+        marginals->row(parameter_columns[m.parameter], digits(m.x), digits(m.density), digits(m.cdf),
+                       digits(m.laplace_density, 8));
+      }
     }
     if (histograms) {
-      write_histograms(*histograms, samples, bins, posterior);
+      for (const auto& bin : replication::sample_histograms(samples, posterior, bins)) {
+        histograms->row(bin.sampler, parameter_columns[bin.parameter], digits(bin.low), digits(bin.high),
+                        digits(bin.density));
+      }
     }
     io::commit_all(csv, summary, marginals, accuracies, histograms);
   });

@@ -5,40 +5,16 @@
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 
 #include <algorithm>
-#include <boost/algorithm/string/split.hpp>
 #include <cmath>
 
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "io/journal.hpp"
-#include "replication/replication.hpp"
 #include "storage/settings.hpp"
 
 using namespace experiments;
 
 namespace {
-
-std::string header() {
-  std::string text = "study,sampler";
-  for (const char* quantity : {"area_", "mean_", "standard_error_", "smallest_", "largest_"}) {
-    for (const auto& name : parameter_columns) {
-      text += fmt::format(",{}{}", quantity, name);
-    }
-  }
-  return text + ",log_evidence_mean,log_evidence_sd,iterations";
-}
-
-std::string row(const replication::StudySummary& s) {
-  std::string text = fmt::format("{},{}", s.study, s.sampler);
-  for (const auto* values : {&s.areas, &s.means, &s.standard_errors, &s.smallest, &s.largest}) {
-    for (const double value : *values) {
-      text += fmt::format(",{}", io::format_number(value));
-    }
-  }
-  return text + fmt::format(",{},{},{}", io::format_number(s.log_evidence_mean),
-                            io::format_number(s.log_evidence_sd),
-                            replication::format_iterations(s.iterations));
-}
 
 /// Everything that the rows depend on, in one line.
 std::string key(const replication::Reading& reading, const std::vector<replication::Arm>& arms,
@@ -61,28 +37,14 @@ std::string key(const replication::Reading& reading, const std::vector<replicati
   for (Eigen::Index j = 0; j < prior.dimension(); ++j) {
     text += fmt::format(" | {} {}", prior.lower()[j], prior.upper()[j]);
   }
-  if (!prior.is_box()) {
-    text += " | " + prior.text();
-  }
   return text;
 }
 
-std::vector<std::string> parts(const std::string& text, char separator) {
-  std::vector<std::string> result;
-  boost::split(result, text, [separator](char c) { return c == separator; });
-  return result;
-}
-
+/// Median and central 95 % of one column, by sampler.
 void report_column(const Program& program, const std::vector<std::string>& rows, std::size_t column,
-                   const std::string& name, const std::vector<replication::Arm>& arms) {
+                   const char* name, const std::vector<replication::Arm>& arms) {
   for (const auto& arm : arms) {
-    std::vector<double> values;
-    for (const auto& text : rows) {
-      const auto cells = parts(text, ',');
-      if (cells[1] == arm.name) {
-        values.push_back(std::stod(cells[column]));
-      }
-    }
+    std::vector<double> values = replication::study_column(rows, arm.name, column);
     std::sort(values.begin(), values.end());
     const auto quantile = [&](double p) {
       return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
@@ -151,7 +113,7 @@ int main(int argc, char** argv) {
         options.study = static_cast<std::uint32_t>(first_study + k);
         std::vector<std::string> added;
         for (const auto& summary : replication::run_study(problem, arms, options)) {
-          added.push_back(row(summary));
+          added.push_back(replication::study_line(summary));
         }
         if (journal) {
           journal->append(added);
@@ -166,19 +128,21 @@ int main(int argc, char** argv) {
       }
       throw;
     }
+    const std::string header = first_study == 0 ? replication::study_header() : "";
     if (journal) {
-      journal->finish(first_study == 0 ? header() : "");
+      journal->finish(header);
     } else if (stream) {
-      stream->write(fmt::format("{}{}{}\n", first_study == 0 ? header() : "", first_study == 0 ? "\n" : "",
-                                fmt::join(rows, "\n")));
+      stream->write(fmt::format("{}{}{}\n", header, header.empty() ? "" : "\n", fmt::join(rows, "\n")));
       stream->commit();
     }
     program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
                    physics.reading_name);
     program.report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
-    report_column(program, rows, 2, "p-box area, F_mu, N", arms);
-    report_column(program, rows, 3, "p-box area, omega_n, Hz", arms);
-    report_column(program, rows, 10, "standard error, F_mu, N", arms);
-    report_column(program, rows, 22, "log-evidence", arms);
+    for (const auto& [column, name] : {std::pair{2U, "p-box area, F_mu, N"},
+                                       {3U, "p-box area, omega_n, Hz"},
+                                       {10U, "standard error, F_mu, N"},
+                                       {22U, "log-evidence"}}) {
+      report_column(program, rows, column, name, arms);
+    }
   });
 }

@@ -4,44 +4,24 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
-#include <set>
-
 #include "inputs.hpp"
-#include "tmcmc/diagnostics.hpp"
 
 using namespace experiments;
 
 namespace {
 
 /// What the runs say of themselves (--diagnose).
-void report_diagnostics(const Program& program, const std::vector<replication::Run>& runs) {
-  std::vector<double> evidence;
-  double squared_errors = 0.0;
-  double smallest_size = std::numeric_limits<double>::infinity();
-  std::map<std::string, int> warned;
-  for (const auto& run : runs) {
-    const auto& result = run.result;
-    evidence.push_back(result.evidence.log_evidence);
-    squared_errors += result.evidence.standard_error * result.evidence.standard_error;
-    smallest_size = std::min(smallest_size, result.diagnostics.effective_sample_size.minCoeff());
-    std::set<std::string> kinds;
-    for (const auto& warning : result.diagnostics.warnings) {
-      kinds.insert(tmcmc::describe(warning.kind));
-    }
-    for (const auto& kind : kinds) {
-      ++warned[kind];
-    }
-  }
-  const auto moments = replication::moments(evidence);
+void report_diagnoses(const Program& program, const std::vector<replication::Run>& runs) {
+  const auto d = replication::diagnoses_of(runs);
   program.report("  bridge log-evidence {:.3f} (sd over runs {:.3f}), standard error of a run {:.3f}\n",
-                 moments.mean, moments.standard_deviation,
-                 std::sqrt(squared_errors / static_cast<double>(runs.size())));
-  program.report("  smallest effective sample size of a parameter and run: {:.0f}\n", smallest_size);
+                 d.log_evidence.mean, d.log_evidence.standard_deviation, d.standard_error);
+  program.report("  smallest effective sample size of a parameter and run: {:.0f}\n",
+                 d.smallest_effective_size);
   program.report("  runs with warnings:");
-  for (const auto& [kind, count] : warned) {
+  for (const auto& [kind, count] : d.warned) {
     program.report("  {}: {}", kind, count);
   }
-  program.report("{}\n", warned.empty() ? "  none" : "");
+  program.report("{}\n", d.warned.empty() ? "  none" : "");
 }
 
 void report_arm(const Program& program, const replication::Arm& arm,
@@ -76,7 +56,7 @@ void report_arm(const Program& program, const replication::Arm& arm,
   }
   program.report("\n");
   if (arm.options.diagnose) {
-    report_diagnostics(program, runs);
+    report_diagnoses(program, runs);
   }
 }
 
@@ -113,33 +93,12 @@ int main(int argc, char** argv) {
 
     std::vector<std::string> sample_columns = {"sampler", "run"};
     sample_columns.insert(sample_columns.end(), parameter_columns.begin(), parameter_columns.end());
-    std::vector<std::string> run_columns = {"sampler", "run", "iterations", "log_evidence", "evaluations"};
-    for (const char* moment : {"mean_", "sd_"}) {
-      for (const auto& name : parameter_columns) {
-        run_columns.push_back(moment + name);
-      }
-    }
-    if (sampler.diagnose) {
-      run_columns.insert(run_columns.end(), {"bridge_log_evidence", "log_evidence_standard_error"});
-      for (const auto& name : parameter_columns) {
-        run_columns.push_back("effective_sample_size_" + name);
-      }
-      run_columns.emplace_back("warnings");
-    }
-    std::optional<io::CsvWriter> samples_csv, runs_csv, stages_csv;
-    if (!program.output().empty()) {
-      samples_csv.emplace(program.output(), sample_columns);
-    }
-    if (!runs_output.empty()) {
-      runs_csv.emplace(runs_output, run_columns);
-    }
-    if (!stages_output.empty()) {
-      stages_csv.emplace(
-          stages_output,
-          std::vector<std::string>{"sampler", "run", "stage", "beta", "step", "effective_sample_size",
-                                   "coefficient_of_variation", "acceptance_rate", "log_evidence_increment",
-                                   "feasible", "distinct_ancestors", "evaluations", "redraws"});
-    }
+    auto samples_csv = open_csv(program.output(), sample_columns);
+    auto runs_csv = open_csv(runs_output, replication::run_columns(sampler.diagnose));
+    auto stages_csv =
+        open_csv(stages_output, {"sampler", "run", "stage", "beta", "step", "effective_sample_size",
+                                 "coefficient_of_variation", "acceptance_rate", "log_evidence_increment",
+                                 "feasible", "distinct_ancestors", "evaluations", "redraws"});
 
     program.report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
                    reading.sampler.samples, options.seed, physics.reading_name, observations.size());
@@ -157,13 +116,7 @@ int main(int argc, char** argv) {
           samples_csv->row(arms[a].name, i, points(row, 0), points(row, 1), points(row, 2), points(row, 3));
         }
         if (runs_csv) {
-          std::vector<double> diagnosed;
-          if (sampler.diagnose) {
-            const auto& d = run.result.diagnostics;
-            diagnosed = {run.result.evidence.log_evidence, run.result.evidence.standard_error};
-            diagnosed.insert(diagnosed.end(), d.effective_sample_size.begin(), d.effective_sample_size.end());
-            diagnosed.push_back(static_cast<double>(d.warnings.size()));
-          }
+          const auto diagnosed = sampler.diagnose ? replication::diagnosed_cells(run) : std::vector<double>();
           runs_csv->row(arms[a].name, i, run.iterations(), run.result.final.log_evidence,
                         run.result.final.evaluations, tmcmc::as_span(run.mean),
                         tmcmc::as_span(run.standard_deviation), diagnosed);

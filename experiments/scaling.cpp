@@ -3,18 +3,11 @@
 //
 // Data: synthetic, from Eqs. 22 and 23 with the stated parameters; prior of Table 2 (Lye and Marino, ESREL 2023).
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 
 #include "inputs.hpp"
-#include "io/interrupt.hpp"
+#include "measure.hpp"
 #include "replication/synthetic.hpp"
 
 using namespace experiments;
@@ -29,11 +22,11 @@ struct Setting {
   long observations;
 };
 
+/// Best of several repetitions.
 struct Measurement {
-  double seconds = std::numeric_limits<double>::infinity();
+  Cost cost{std::numeric_limits<double>::infinity(), 0.0};
   long stages = 0;
   long evaluations = 0;
-  double peak_bytes = 0.0;
 };
 
 /// The frequency ratios of Table 1 over and over.
@@ -46,12 +39,10 @@ friction::Observations synthetic_observations(long count) {
   return replication::generate_observations({}, ratios, {}, 1);
 }
 
-/// Repeats the work for a tenth of a second, at least once; the shortest time counts.
-Measurement work_on(const Setting& s) {
-  using Clock = std::chrono::steady_clock;
+Measurement measure(const Setting& s) {
   const auto reading = replication::reading(replication::ReadingName::as_published);
-  const auto problem =
-      replication::problem(reading, synthetic_observations(s.observations), prior_for({}, reading));
+  const auto problem = interruptible(
+      replication::problem(reading, synthetic_observations(s.observations), prior_for({}, reading)));
   auto arms = replication::paper_arms(reading);
   for (auto& arm : arms) {
     arm.options.samples = s.samples;
@@ -62,65 +53,21 @@ Measurement work_on(const Setting& s) {
     result.stages += std::ssize(run.stages);
     result.evaluations += run.final.evaluations;
   };
-  for (const auto begin = Clock::now(); Clock::now() - begin < std::chrono::milliseconds(100);) {
+  result.cost = cost_of([&] {
     result.stages = result.evaluations = 0;
-    const auto start = Clock::now();
     if (s.runs == 1) {
-      count(tmcmc::run(problem, arms[0].options, {.seed = 1}));
-    } else {
-      const replication::StudyOptions options{.runs = s.runs / std::ssize(arms), .threads = s.threads};
-      for (std::uint32_t a = 0; a < arms.size(); ++a) {
-        const auto runs = replication::run_arm(problem, arms[a], a, options);
-        static_cast<void>(replication::pbox_areas(runs, options.threads));
-        for (const auto& run : runs) {
-          count(run.result);
-        }
+      return count(tmcmc::run(problem, arms[0].options, {.seed = 1}));
+    }
+    const replication::StudyOptions options{.runs = s.runs / std::ssize(arms), .threads = s.threads};
+    for (std::uint32_t a = 0; a < arms.size(); ++a) {
+      const auto runs = replication::run_arm(problem, arms[a], a, options);
+      static_cast<void>(replication::pbox_areas(runs, options.threads));
+      for (const auto& run : runs) {
+        count(run.result);
       }
     }
-    result.seconds = std::min(result.seconds, std::chrono::duration<double>(Clock::now() - start).count());
-  }
+  });
   return result;
-}
-
-/// In a process of its own, whose peak memory is that of the work. This process must not have started a thread.
-Measurement measure(const Setting& setting) {
-  int channel[2];
-  if (pipe(channel) != 0) {
-    throw std::runtime_error("scaling: no pipe to a process of its own");
-  }
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) {
-      _exit(1);
-    }
-    try {
-      const Measurement m = work_on(setting);
-      _exit(write(channel[1], &m, sizeof m) == static_cast<ssize_t>(sizeof m) ? 0 : 1);
-    } catch (...) {
-      _exit(1);
-    }
-  }
-  close(channel[1]);
-  Measurement m;
-  const bool complete = child > 0 && read(channel[0], &m, sizeof m) == static_cast<ssize_t>(sizeof m);
-  close(channel[0]);
-  rusage usage{};
-  int status = 0;
-  if (child > 0) {
-    if (!complete) {  // an interrupt broke off the read
-      kill(child, SIGKILL);
-    }
-    wait4(child, &status, 0, &usage);
-  }
-  io::stop_if_interrupted();
-  if (!complete || status != 0) {
-    throw std::runtime_error(
-        fmt::format("the measurement of {} samples on {} threads failed", setting.samples, setting.threads));
-  }
-  m.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
-  return m;
 }
 
 std::vector<Setting> settings(long most_samples, int most_threads) {
@@ -149,7 +96,7 @@ int main(int argc, char** argv) {
   long most_samples = 1000000, repetitions = 5;
   int most_threads = 0;
   program.add_output(
-      "CSV, one row a setting: stages and evaluations, best time, peak memory beyond that of 64 samples");
+      "CSV, one row a setting: stages and evaluations, best time, peak memory beyond what was in use before");
   program.add_number("--most-samples", most_samples, count(100, 1000000),
                      "Settings with more samples are left out");
   program.add_number("--most-threads", most_threads, count(0, 4096),
@@ -162,16 +109,15 @@ int main(int argc, char** argv) {
     auto csv = open_csv(program.output(), {"sweep", "runs", "samples", "threads", "observations", "stages",
                                            "evaluations", "seconds", "microseconds_per_sample",
                                            "nanoseconds_per_evaluation", "memory_bytes", "speedup"});
-    const double base = measure({"base", 1, 64, 1, 10}).peak_bytes;
     std::vector<Measurement> best(all.size());
     io::Progress progress("scaling", all.size() * static_cast<std::size_t>(repetitions), !program.quiet());
     // Round by round, so that a disturbance does not hit one setting alone.
     for (long round = 0; round < repetitions; ++round) {
       for (std::size_t i = 0; i < all.size(); ++i) {
         const auto m = measure(all[i]);
-        const double peak_bytes = std::max(best[i].peak_bytes, m.peak_bytes);
-        best[i] = m.seconds < best[i].seconds ? m : best[i];
-        best[i].peak_bytes = peak_bytes;
+        const double peak_bytes = std::max(best[i].cost.peak_bytes, m.cost.peak_bytes);
+        best[i] = m.cost.seconds < best[i].cost.seconds ? m : best[i];
+        best[i].cost.peak_bytes = peak_bytes;
         progress.advance();
       }
     }
@@ -181,19 +127,19 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Setting& s = all[i];
       const Measurement& m = best[i];
-      const double per_sample = 1e6 * m.seconds / static_cast<double>(s.runs * s.samples);
-      const double per_evaluation = 1e9 * m.seconds / static_cast<double>(m.evaluations);
-      const double memory = std::max(0.0, m.peak_bytes - base);
+      const double per_sample = 1e6 * m.cost.seconds / static_cast<double>(s.runs * s.samples);
+      const double per_evaluation = 1e9 * m.cost.seconds / static_cast<double>(m.evaluations);
       const auto alone = std::find_if(all.begin(), all.end(), [&](const Setting& other) {
         return other.sweep == s.sweep && other.samples == s.samples && other.observations == s.observations;
       });
-      const double speedup = best[static_cast<std::size_t>(alone - all.begin())].seconds / m.seconds;
+      const double speedup =
+          best[static_cast<std::size_t>(alone - all.begin())].cost.seconds / m.cost.seconds;
       program.report("{:<13} {:>8} {:>8} {:>13} {:>10.4f} {:>14.3f} {:>17.1f} {:>10.2f} {:>8.2f}\n", s.sweep,
-                     s.samples, s.threads, s.observations, m.seconds, per_sample, per_evaluation,
-                     1e-6 * memory, speedup);
+                     s.samples, s.threads, s.observations, m.cost.seconds, per_sample, per_evaluation,
+                     1e-6 * m.cost.peak_bytes, speedup);
       if (csv) {
-        csv->row(s.sweep, s.runs, s.samples, s.threads, s.observations, m.stages, m.evaluations, m.seconds,
-                 per_sample, per_evaluation, memory, speedup);
+        csv->row(s.sweep, s.runs, s.samples, s.threads, s.observations, m.stages, m.evaluations,
+                 m.cost.seconds, per_sample, per_evaluation, m.cost.peak_bytes, speedup);
       }
     }
     io::commit_all(csv);

@@ -25,6 +25,12 @@ double misfit_curvature(std::size_t count, double x, Residual residual) {
 
 }  // namespace
 
+double LaplaceApproximation::marginal_density(std::size_t parameter, double x) const {
+  const double sd = standard_deviation.at(parameter);
+  const double z = (x - mode.at(parameter)) / sd;
+  return portable_math::exp(-0.5 * z * z) / (sd * std::sqrt(2.0 * std::numbers::pi));
+}
+
 LaplaceApproximation laplace_approximation(const friction::Observations& observations,
                                            const friction::Physics& physics, const LeastSquaresFit& fit,
                                            const ParameterBounds& bounds) {

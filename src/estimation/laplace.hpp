@@ -19,6 +19,9 @@ struct LaplaceApproximation {
   std::array<double, friction::parameter_count> mode{};                ///< maximum of the likelihood
   std::array<double, friction::parameter_count> standard_deviation{};  ///< H_ii^(-1/2)
   double log_evidence = 0.0;  ///< log P(D), uniform priors normalised
+
+  /// Normal density of one parameter, per its unit; NaN unless regular.
+  [[nodiscard]] double marginal_density(std::size_t parameter, double x) const;
 };
 
 /// Approximates the posterior under uniform priors on the bounds by a normal density at the mode, which is the

@@ -44,4 +44,33 @@ Interval95 central_95(std::vector<double> null) {
   return {sample_quantile(null, 0.025), sample_quantile(null, 0.975)};
 }
 
+EstimateError error_of(std::span<const double> estimates, double exact) {
+  const Moments m = moments(estimates);
+  const auto n = static_cast<double>(estimates.size());
+  double squares = 0.0;
+  for (const double x : estimates) {
+    squares += (x - exact) * (x - exact);
+  }
+  return {m.mean, m.mean - exact, m.standard_deviation / std::sqrt(n), m.standard_deviation,
+          std::sqrt(squares / n)};
+}
+
+std::vector<long> histogram(std::span<const double> values, double low, double high, long bins) {
+  if (bins < 1) {
+    throw errors::InvalidValue("bins", bins, "at least 1");
+  }
+  if (!(low < high)) {
+    throw errors::InvalidValue("high", high, "more than the lower end");
+  }
+  const double width = (high - low) / static_cast<double>(bins);
+  std::vector<long> counts(static_cast<std::size_t>(bins));
+  for (const double x : values) {
+    const double bin = std::floor((x - low) / width);
+    if (bin >= 0.0 && bin < static_cast<double>(bins)) {
+      ++counts[static_cast<std::size_t>(bin)];
+    }
+  }
+  return counts;
+}
+
 }  // namespace statistics

@@ -32,4 +32,20 @@ struct Interval95 {
 /// Central 95 % interval of the draws.
 [[nodiscard]] Interval95 central_95(std::vector<double> null);
 
+/// What estimates of independent runs are off, against the exact value; in the unit of the estimates.
+struct EstimateError {
+  double mean;              ///< of the estimates
+  double bias;              ///< mean - exact value
+  double standard_error;    ///< of the bias: spread / sqrt(n)
+  double spread;            ///< standard deviation (n - 1); NaN for one estimate
+  double root_mean_square;  ///< of the differences from the exact value
+};
+/// \throws errors::InvalidValue if there is no estimate.
+[[nodiscard]] EstimateError error_of(std::span<const double> estimates, double exact);
+
+/// Number of values in each of equal bins from `low` to `high`, the lower end of a bin included; values outside count in
+/// none.
+/// \throws errors::InvalidValue unless low < high and there is a bin.
+[[nodiscard]] std::vector<long> histogram(std::span<const double> values, double low, double high, long bins);
+
 }  // namespace statistics

@@ -33,3 +33,25 @@ TEST_CASE("the root mean square of given values", "[summary]") {
   CHECK_THAT(root_mean_square(values), WithinRel(std::sqrt(12.5), rounding));
   CHECK(root_mean_square({}) == 0.0);
 }
+
+TEST_CASE("the error of estimates, by hand", "[summary]") {
+  const std::vector<double> estimates{2.0, 4.0, 9.0};
+  const auto error = error_of(estimates, 4.0);
+  CHECK(error.mean == 5.0);
+  CHECK(error.bias == 1.0);
+  CHECK_THAT(error.spread, WithinRel(std::sqrt(13.0), rounding));
+  CHECK_THAT(error.standard_error, WithinRel(std::sqrt(13.0 / 3.0), rounding));
+  CHECK_THAT(error.root_mean_square, WithinRel(std::sqrt(29.0 / 3.0), rounding));
+  const auto single = error_of(std::vector<double>{2.0}, 3.0);
+  CHECK(single.root_mean_square == 1.0);
+  CHECK(std::isnan(single.spread));
+  CHECK_THROWS_AS(error_of({}, 0.0), errors::InvalidValue);
+}
+
+TEST_CASE("a histogram counts each value in the bin whose lower end it has reached", "[summary]") {
+  const std::vector<double> values{-0.1, 0.0, 0.24, 0.25, 0.5, 0.99, 1.0, 7.0};
+  CHECK(histogram(values, 0.0, 1.0, 4) == std::vector<long>{2, 1, 1, 1});
+  CHECK(histogram({}, 0.0, 1.0, 2) == std::vector<long>{0, 0});
+  CHECK_THROWS_AS(histogram(values, 1.0, 1.0, 4), errors::InvalidValue);
+  CHECK_THROWS_AS(histogram(values, 0.0, 1.0, 0), errors::InvalidValue);
+}

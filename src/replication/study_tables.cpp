@@ -1,12 +1,16 @@
-// What studies have written, and what was printed of them; measurements and priors are in inputs.cpp.
+#include "replication/study_tables.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <boost/algorithm/string/split.hpp>
 #include <cmath>
-#include <map>
+#include <set>
 
 #include "errors/invalid_value.hpp"
-#include "inputs.hpp"
+#include "replication/columns.hpp"
 
-namespace experiments {
+namespace replication {
 
 namespace {
 
@@ -47,53 +51,41 @@ void require_same_samplers(const io::CsvTable& table, const std::vector<long>& s
 
 }  // namespace
 
-GroupedColumns read_samples(const std::string& path) {
-  return read_samples(io::CsvTable::read(path));
+std::string study_header() {
+  std::string text = "study,sampler";
+  for (const char* quantity : {"area_", "mean_", "standard_error_", "smallest_", "largest_"}) {
+    for (const auto& name : parameter_columns) {
+      text += fmt::format(",{}{}", quantity, name);
+    }
+  }
+  return text + ",log_evidence_mean,log_evidence_sd,iterations";
 }
 
-GroupedColumns read_samples(const io::CsvTable& table) {
-  table.require_columns({"sampler", "run"});
-  const auto samplers = table.text("sampler");
-  const auto runs = table.integers("run");
-  GroupedColumns result;
-  std::map<std::string_view, std::size_t> sampler_index;
-  std::vector<std::map<long, std::size_t>> run_index;
-  std::vector<std::pair<std::size_t, std::size_t>> place;  // of each row: sampler, run
-  for (std::size_t row = 0; row < samplers.size(); ++row) {
-    const auto [found, is_new] = sampler_index.try_emplace(samplers[row], sampler_index.size());
-    if (is_new) {
-      result.samplers.push_back(samplers[row]);
-      run_index.emplace_back();
-    }
-    const std::size_t s = found->second;
-    const auto run = run_index[s].try_emplace(runs[row], run_index[s].size()).first->second;
-    place.emplace_back(s, run);
+std::string study_line(const StudySummary& s) {
+  std::string text = fmt::format("{},{}", s.study, s.sampler);
+  const auto add = [&](double value) { text += ',' + io::format_number(value); };
+  for (const auto* values : {&s.areas, &s.means, &s.standard_errors, &s.smallest, &s.largest}) {
+    std::for_each(values->begin(), values->end(), add);
   }
-  for (const auto& name : table.column_names()) {
-    if (name != "sampler" && name != "run") {
-      result.columns.push_back(name);
-    }
-  }
-  if (result.columns.empty()) {
-    throw io::InputError(table.path().string() +
-                         ": no column of samples: expected at least one besides sampler and run");
-  }
-  result.values.resize(result.samplers.size());
-  for (std::size_t s = 0; s < result.samplers.size(); ++s) {
-    result.values[s].assign(result.columns.size(), std::vector<std::vector<double>>(run_index[s].size()));
-  }
-  for (std::size_t c = 0; c < result.columns.size(); ++c) {
-    const auto numbers = checked(
-        table, result.columns[c], table.numbers(result.columns[c]),
-        [](double x) { return std::fabs(x) <= most_ordinary; }, "a number from -1e100 to 1e100");
-    for (std::size_t row = 0; row < numbers.size(); ++row) {
-      result.values[place[row].first][c][place[row].second].push_back(numbers[row]);
-    }
-  }
-  return result;
+  add(s.log_evidence_mean);
+  add(s.log_evidence_sd);
+  return text + ',' + format_iterations(s.iterations);
 }
 
-std::vector<replication::StudySummary> read_studies(const std::string& path) {
+std::vector<double> study_column(const std::vector<std::string>& lines, const std::string& sampler,
+                                 std::size_t column) {
+  std::vector<double> values;
+  for (const auto& line : lines) {
+    std::vector<std::string> cells;
+    boost::split(cells, line, [](char c) { return c == ','; });
+    if (cells.at(1) == sampler) {
+      values.push_back(std::stod(cells.at(column)));
+    }
+  }
+  return values;
+}
+
+std::vector<StudySummary> read_studies(const std::string& path) {
   const auto table = io::CsvTable::read(path);
   const auto numbers = checked(
       table, "study", table.integers("study"), [](long n) { return n >= 0 && n <= largest_study; },
@@ -103,7 +95,7 @@ std::vector<replication::StudySummary> read_studies(const std::string& path) {
   const auto iterations = table.text("iterations");
   const auto evidence_mean = table.numbers("log_evidence_mean");
   const auto evidence_sd = nonnegative_numbers(table, "log_evidence_sd");
-  std::vector<replication::StudySummary> studies(table.rows());
+  std::vector<StudySummary> studies(table.rows());
   for (std::size_t row = 0; row < studies.size(); ++row) {
     auto& s = studies[row];
     s.study = static_cast<std::uint32_t>(numbers[row]);
@@ -111,7 +103,7 @@ std::vector<replication::StudySummary> read_studies(const std::string& path) {
     s.log_evidence_mean = evidence_mean[row];
     s.log_evidence_sd = evidence_sd[row];
     try {
-      s.iterations = replication::parse_iterations(iterations[row]);
+      s.iterations = parse_iterations(iterations[row]);
     } catch (const errors::InvalidValue& error) {
       table.fail(row, "iterations", error.expected());
     }
@@ -119,8 +111,7 @@ std::vector<replication::StudySummary> read_studies(const std::string& path) {
   const auto any_numbers = [](const io::CsvTable& from, std::string_view column) {
     return from.numbers(column);
   };
-  const auto fill = [&](const std::string& prefix, std::vector<double> replication::StudySummary::*member,
-                        auto read) {
+  const auto fill = [&](const std::string& prefix, std::vector<double> StudySummary::*member, auto read) {
     for (const auto& name : parameter_columns) {
       const auto values = read(table, prefix + name);
       for (std::size_t row = 0; row < studies.size(); ++row) {
@@ -128,11 +119,11 @@ std::vector<replication::StudySummary> read_studies(const std::string& path) {
       }
     }
   };
-  fill("area_", &replication::StudySummary::areas, positive_numbers);
-  fill("mean_", &replication::StudySummary::means, any_numbers);
-  fill("standard_error_", &replication::StudySummary::standard_errors, nonnegative_numbers);
-  fill("smallest_", &replication::StudySummary::smallest, any_numbers);
-  fill("largest_", &replication::StudySummary::largest, any_numbers);
+  fill("area_", &StudySummary::areas, positive_numbers);
+  fill("mean_", &StudySummary::means, any_numbers);
+  fill("standard_error_", &StudySummary::standard_errors, nonnegative_numbers);
+  fill("smallest_", &StudySummary::smallest, any_numbers);
+  fill("largest_", &StudySummary::largest, any_numbers);
   return studies;
 }
 
@@ -174,7 +165,7 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
     if (std::all_of(runs.begin(), runs.end(), [](long n) { return n == 0; })) {
       counts.fail(0, sampler, "at least one run in the column");
     }
-    replication::PrintedCounts column{sampler, {}};
+    PrintedCounts column{sampler, {}};
     for (std::size_t row = 0; row < runs.size(); ++row) {
       column.counts[iterations[row]] = runs[row];
     }
@@ -183,7 +174,7 @@ PrintedTables read_printed_tables(const std::string& table3, const std::string& 
   return printed;
 }
 
-std::vector<replication::StudySummary> read_studies(const std::string& path, const PrintedTables& printed) {
+std::vector<StudySummary> read_studies(const std::string& path, const PrintedTables& printed) {
   auto studies = read_studies(path);
   for (const auto& column : printed.counts) {
     const auto count = std::count_if(studies.begin(), studies.end(),
@@ -201,13 +192,12 @@ std::vector<replication::StudySummary> read_studies(const std::string& path, con
   return studies;
 }
 
-replication::Null null_of(const std::vector<replication::StudySummary>& studies,
-                          const PrintedTables& printed) {
+Null null_of(const std::vector<StudySummary>& studies, const PrintedTables& printed) {
   if (printed.counts.size() != 2) {
     throw io::InputError(fmt::format("{}: {} columns of counts: expected those of two samplers",
                                      printed.counts_path, printed.counts.size()));
   }
-  return replication::null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
+  return null_of(studies, printed.counts[0].sampler, printed.counts[1].sampler, 1);
 }
 
-}  // namespace experiments
+}  // namespace replication

@@ -1,0 +1,81 @@
+#include "replication/posterior_tables.hpp"
+
+#include <limits>
+
+namespace replication {
+
+namespace {
+
+const estimation::TabulatedDensity& marginal(const estimation::ExactPosterior& posterior, std::size_t p) {
+  return posterior.marginal(static_cast<friction::Parameter>(p));
+}
+
+/// All but 2e-4 of the probability.
+estimation::Interval drawn_range(const estimation::TabulatedDensity& exact) {
+  return {exact.quantile(1e-4), exact.quantile(1.0 - 1e-4)};
+}
+
+}  // namespace
+
+std::vector<QuantityError> errors_of(const GroupedColumns& runs,
+                                     const estimation::ExactPosterior& posterior) {
+  std::vector<double> exact;
+  for (std::size_t p = 0; p < friction::parameter_count; ++p) {
+    exact.push_back(marginal(posterior, p).mean());
+    exact.push_back(marginal(posterior, p).standard_deviation());
+  }
+  exact.push_back(posterior.log_evidence());
+  std::vector<QuantityError> errors;
+  for (std::size_t s = 0; s < runs.samplers.size(); ++s) {
+    for (std::size_t q = 0; q < exact.size(); ++q) {
+      std::vector<double> estimates;
+      for (const auto& run : runs.values[s][q]) {
+        estimates.push_back(run.front());
+      }
+      const auto error = statistics::error_of(estimates, exact[q]);
+      const bool is_mean = q % 2 == 0 && q + 1 < exact.size();
+      const double sd = is_mean ? exact[q + 1] : std::numeric_limits<double>::quiet_NaN();
+      errors.push_back({runs.samplers[s], estimated_quantities()[q], estimates.size(), exact[q], error,
+                        sd * sd / (error.spread * error.spread)});
+    }
+  }
+  return errors;
+}
+
+std::vector<MarginalPoint> marginal_points(const estimation::ExactPosterior& posterior,
+                                           const estimation::LaplaceApproximation& laplace, long points) {
+  std::vector<MarginalPoint> all;
+  for (std::size_t p = 0; p < friction::parameter_count; ++p) {
+    const auto& exact = marginal(posterior, p);
+    const auto range = drawn_range(exact);
+    for (long i = 0; i < points; ++i) {
+      const double x = range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1);
+      all.push_back({p, x, exact.density(x), exact.cdf(x), laplace.marginal_density(p, x)});
+    }
+  }
+  return all;
+}
+
+std::vector<HistogramBin> sample_histograms(const GroupedColumns& samples,
+                                            const estimation::ExactPosterior& posterior, long bins) {
+  std::vector<HistogramBin> all;
+  for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
+    for (std::size_t p = 0; p < friction::parameter_count; ++p) {
+      const auto range = drawn_range(marginal(posterior, p));
+      const double width = range.width() / static_cast<double>(bins);
+      std::vector<double> pooled;
+      for (const auto& run : samples.values[s][p]) {
+        pooled.insert(pooled.end(), run.begin(), run.end());
+      }
+      const double mass = static_cast<double>(pooled.size()) * width;
+      const auto counts = statistics::histogram(pooled, range.lower, range.upper, bins);
+      for (std::size_t b = 0; b < counts.size(); ++b) {
+        const double low = range.lower + width * static_cast<double>(b);
+        all.push_back({samples.samplers[s], p, low, low + width, static_cast<double>(counts[b]) / mass});
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace replication

@@ -1,0 +1,61 @@
+/// \file
+/// What a figure or table shows of the exact posterior, and how far the samplers are from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimation/exact_posterior.hpp"
+#include "estimation/laplace.hpp"
+#include "replication/sample_tables.hpp"
+#include "statistics/summary.hpp"
+
+namespace replication {
+
+/// What the runs of one sampler are off in one quantity.
+struct QuantityError {
+  std::string sampler;              ///< as in the runs
+  std::string quantity;             ///< one of estimated_quantities
+  std::size_t runs;                 ///< number of estimates
+  double exact;                     ///< value of the exact posterior
+  statistics::EstimateError error;  ///< of the estimates
+  /// Number of independent samples whose mean would spread as much; NaN of other quantities than means.
+  double effective_size;
+};
+
+/// Each sampler's error in each of estimated_quantities.
+/// \param runs  as read_estimates returns them
+[[nodiscard]] std::vector<QuantityError> errors_of(const GroupedColumns& runs,
+                                                   const estimation::ExactPosterior& posterior);
+
+/// A place on the exact marginal of a parameter.
+struct MarginalPoint {
+  std::size_t parameter;   ///< friction::Parameter
+  double x;                ///< in the unit of the parameter
+  double density;          ///< exact, per that unit
+  double cdf;              ///< exact
+  double laplace_density;  ///< of the normal approximation
+};
+
+/// Each marginal at equal distances over all but 2e-4 of its probability.
+/// \param points  of each marginal, at least 2
+[[nodiscard]] std::vector<MarginalPoint> marginal_points(const estimation::ExactPosterior& posterior,
+                                                         const estimation::LaplaceApproximation& laplace,
+                                                         long points);
+
+/// A bin of the pooled samples of a sampler.
+struct HistogramBin {
+  std::string sampler;    ///< as in the samples
+  std::size_t parameter;  ///< friction::Parameter
+  double low;             ///< in the unit of the parameter
+  double high;            ///< the next bin's low
+  double density;         ///< per that unit
+};
+
+/// Histograms over the ranges of marginal_points.
+/// \param samples  of the four parameters in order
+[[nodiscard]] std::vector<HistogramBin> sample_histograms(const GroupedColumns& samples,
+                                                          const estimation::ExactPosterior& posterior,
+                                                          long bins);
+
+}  // namespace replication

@@ -1,0 +1,156 @@
+#include "replication/sample_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "replication/columns.hpp"
+#include "tmcmc/diagnostics.hpp"
+
+namespace replication {
+
+namespace {
+
+constexpr double most_ordinary = 1e100;  // sums and squares do not overflow
+
+}  // namespace
+
+GroupedColumns read_samples(const std::string& path) {
+  return read_samples(io::CsvTable::read(path));
+}
+
+GroupedColumns read_samples(const io::CsvTable& table) {
+  table.require_columns({"sampler", "run"});
+  const auto samplers = table.text("sampler");
+  const auto runs = table.integers("run");
+  GroupedColumns result;
+  std::map<std::string_view, std::size_t> sampler_index;
+  std::vector<std::map<long, std::size_t>> run_index;
+  std::vector<std::pair<std::size_t, std::size_t>> place;  // of each row: sampler, run
+  for (std::size_t row = 0; row < samplers.size(); ++row) {
+    const auto [found, is_new] = sampler_index.try_emplace(samplers[row], sampler_index.size());
+    if (is_new) {
+      result.samplers.push_back(samplers[row]);
+      run_index.emplace_back();
+    }
+    const std::size_t s = found->second;
+    const auto run = run_index[s].try_emplace(runs[row], run_index[s].size()).first->second;
+    place.emplace_back(s, run);
+  }
+  for (const auto& name : table.column_names()) {
+    if (name != "sampler" && name != "run") {
+      result.columns.push_back(name);
+    }
+  }
+  if (result.columns.empty()) {
+    throw io::InputError(table.path().string() +
+                         ": no column of samples: expected at least one besides sampler and run");
+  }
+  result.values.resize(result.samplers.size());
+  for (std::size_t s = 0; s < result.samplers.size(); ++s) {
+    result.values[s].assign(result.columns.size(), std::vector<std::vector<double>>(run_index[s].size()));
+  }
+  for (std::size_t c = 0; c < result.columns.size(); ++c) {
+    const auto numbers = checked(
+        table, result.columns[c], table.numbers(result.columns[c]),
+        [](double x) { return std::fabs(x) <= most_ordinary; }, "a number from -1e100 to 1e100");
+    for (std::size_t row = 0; row < numbers.size(); ++row) {
+      result.values[place[row].first][c][place[row].second].push_back(numbers[row]);
+    }
+  }
+  return result;
+}
+
+GroupedColumns read_samples(const io::CsvTable& table, const std::vector<std::string>& names,
+                            const std::string& expected) {
+  GroupedColumns all = read_samples(table);
+  GroupedColumns chosen{all.samplers, names, {}};
+  chosen.values.resize(all.samplers.size());
+  for (const auto& name : names) {
+    const auto found = std::find(all.columns.begin(), all.columns.end(), name);
+    if (found == all.columns.end()) {
+      throw io::InputError(
+          fmt::format("{}: no column '{}': expected {}", table.path().string(), name, expected));
+    }
+    for (std::size_t s = 0; s < all.samplers.size(); ++s) {
+      chosen.values[s].push_back(all.values[s][static_cast<std::size_t>(found - all.columns.begin())]);
+    }
+  }
+  return chosen;
+}
+
+const std::vector<std::string>& estimated_quantities() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& parameter : parameter_columns) {
+      all.push_back("mean_" + parameter);
+      all.push_back("sd_" + parameter);
+    }
+    all.emplace_back("log_evidence");
+    return all;
+  }();
+  return names;
+}
+
+GroupedColumns read_estimates(const std::string& path) {
+  const auto table = io::CsvTable::read(path);
+  auto estimates = read_samples(table, estimated_quantities(), "the runs of sampling_study");
+  require_runs_once(table);
+  for (const auto& name : parameter_columns) {
+    static_cast<void>(nonnegative_numbers(table, "sd_" + name));
+  }
+  return estimates;
+}
+
+std::vector<std::string> run_columns(bool diagnosed) {
+  std::vector<std::string> columns = {"sampler", "run", "iterations", "log_evidence", "evaluations"};
+  const auto add = [&](const std::string& prefix) {
+    for (const auto& name : parameter_columns) {
+      columns.push_back(prefix + name);
+    }
+  };
+  add("mean_");
+  add("sd_");
+  if (diagnosed) {
+    columns.insert(columns.end(), {"bridge_log_evidence", "log_evidence_standard_error"});
+    add("effective_sample_size_");
+    columns.emplace_back("warnings");
+  }
+  return columns;
+}
+
+std::vector<double> diagnosed_cells(const Run& run) {
+  const auto& d = run.result.diagnostics;
+  std::vector<double> cells = {run.result.evidence.log_evidence, run.result.evidence.standard_error};
+  cells.insert(cells.end(), d.effective_sample_size.begin(), d.effective_sample_size.end());
+  cells.push_back(static_cast<double>(d.warnings.size()));
+  return cells;
+}
+
+Diagnoses diagnoses_of(const std::vector<Run>& runs) {
+  Diagnoses all{{}, 0.0, std::numeric_limits<double>::infinity(), {}};
+  std::vector<double> evidence;
+  double squared_errors = 0.0;
+  for (const Run& run : runs) {
+    evidence.push_back(run.result.evidence.log_evidence);
+    squared_errors += run.result.evidence.standard_error * run.result.evidence.standard_error;
+    all.smallest_effective_size =
+        std::min(all.smallest_effective_size, run.result.diagnostics.effective_sample_size.minCoeff());
+    std::set<std::string> kinds;
+    for (const auto& warning : run.result.diagnostics.warnings) {
+      kinds.insert(tmcmc::describe(warning.kind));
+    }
+    for (const auto& kind : kinds) {
+      ++all.warned[kind];
+    }
+  }
+  all.log_evidence = moments(evidence);
+  all.standard_error = std::sqrt(squared_errors / static_cast<double>(runs.size()));
+  return all;
+}
+
+}  // namespace replication

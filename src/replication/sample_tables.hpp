@@ -1,0 +1,55 @@
+/// \file
+/// Tables that a study writes: samples and runs.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/csv.hpp"
+#include "replication/study.hpp"
+
+namespace replication {
+
+/// Columns of one sampler's runs, from a file with columns `sampler`, `run` and one or more of numbers.
+struct GroupedColumns {
+  std::vector<std::string> samplers;  ///< in the order in which they first appear
+  std::vector<std::string> columns;   ///< all but sampler and run
+  /// values[sampler][column][run]: the numbers in the order of the file
+  std::vector<std::vector<std::vector<std::vector<double>>>> values;
+};
+
+/// Reads samples of a study (any parameters), grouped by sampler and run.
+/// \throws io::InputError naming file, line, column and value.
+[[nodiscard]] GroupedColumns read_samples(const std::string& path);
+/// The same of a table that was read.
+[[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table);
+
+/// The same, of which only the columns with the names stay, in their order; `expected` says what file was expected.
+/// \throws as read_samples; for a column that is missing.
+[[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table, const std::vector<std::string>& names,
+                                          const std::string& expected);
+
+/// Mean and standard deviation of each parameter in turn, and the log-evidence: columns of the runs of a study.
+[[nodiscard]] const std::vector<std::string>& estimated_quantities();
+
+/// What each run estimates, in the order of estimated_quantities, from the runs that sampling_study writes.
+/// \throws as read_samples; for a second row of a run or a negative standard deviation.
+[[nodiscard]] GroupedColumns read_estimates(const std::string& path);
+
+/// Columns of the runs of a study; with diagnosed, those of what the runs say of themselves too.
+[[nodiscard]] std::vector<std::string> run_columns(bool diagnosed);
+/// The cells of a run in the columns that diagnosed adds.
+[[nodiscard]] std::vector<double> diagnosed_cells(const Run& run);
+
+/// What the runs of one sampler say of themselves.
+struct Diagnoses {
+  statistics::Moments log_evidence;  ///< by bridge sampling, over the runs
+  double standard_error;             ///< of the log-evidence of a run: root mean square of what the runs say
+  double smallest_effective_size;    ///< of any parameter and run
+  std::map<std::string, long> warned;  ///< number of runs by kind of warning
+};
+/// \param runs  with diagnostics (Options::diagnose), at least one
+[[nodiscard]] Diagnoses diagnoses_of(const std::vector<Run>& runs);
+
+}  // namespace replication
