@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "friction/angle.hpp"
 #include "inputs.hpp"
 #include "replication/comparison.hpp"
 
@@ -17,56 +15,6 @@ using namespace experiments;
 namespace {
 
 using Cell = replication::ComparedCell;
-
-/// All numeric cells of a printed table, looked up in ours by key column. Cells that ours lacks count as
-/// `missing`.
-void compare(std::vector<Cell>& cells, const std::string& name, const std::string& key,
-             const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
-             double missing) {
-  struct Source {
-    std::map<std::string, std::size_t> rows;
-    std::map<std::string, std::vector<double>> numbers;
-  };
-  const auto source = [&](const io::CsvTable& table) {
-    const auto own_keys = table.text(key);
-    require_once(table, own_keys, key, "each value once");
-    Source result;
-    for (std::size_t row = 0; row < own_keys.size(); ++row) {
-      result.rows.emplace(own_keys[row], row);
-    }
-    for (const auto& column : columns) {
-      result.numbers[column] = table.numbers(column);
-    }
-    return result;
-  };
-  const Source of_printed = source(printed);
-  const Source of_ours = source(ours);
-  auto keys = printed.text(key);
-  for (const auto& k : ours.text(key)) {
-    if (of_printed.rows.count(k) == 0) {
-      keys.push_back(k);
-    }
-  }
-  const auto value = [&](const Source& in, const std::string& column, const std::string& k) {
-    const auto found = in.rows.find(k);
-    return found == in.rows.end() ? missing : in.numbers.at(column)[found->second];
-  };
-  for (const auto& k : keys) {
-    for (const auto& column : columns) {
-      cells.push_back({.table = name,
-                       .row = k,
-                       .column = column,
-                       .printed = value(of_printed, column, k),
-                       .ours = value(of_ours, column, k)});
-    }
-  }
-}
-
-/// Ours minus printed; of angles the shortest way.
-double difference(const Cell& cell) {
-  return cell.column == "phase_deg" ? friction::angle_residual_deg(cell.ours, cell.printed)
-                                    : cell.ours - cell.printed;
-}
 
 /// Where the cell stands among replicated studies, as far as that is known.
 std::string place_of(const Cell& cell) {
@@ -95,11 +43,11 @@ void report_and_write(const Program& program, const std::vector<Cell>& cells,
                      "ours", "difference", "among replicated studies");
     }
     program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column,
-                   cell.printed, cell.ours, difference(cell), place_of(cell));
+                   cell.printed, cell.ours, replication::difference(cell), place_of(cell));
     if (csv) {
-      csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, difference(cell), cell.median,
-               cell.interval.low, cell.interval.high, cell.printed_percentile, cell.our_percentile,
-               cell.p.value, cell.p.standard_error, cell.verdict);
+      csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, replication::difference(cell),
+               cell.median, cell.interval.low, cell.interval.high, cell.printed_percentile,
+               cell.our_percentile, cell.p.value, cell.p.standard_error, cell.verdict);
     }
   }
 }
@@ -135,8 +83,9 @@ int main(int argc, char** argv) {
       return io::CsvTable::read(printed_directory + "/" + file);
     };
     std::vector<Cell> cells;
-    compare(cells, "Table 1", "index", {"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"},
-            printed("table1_observations.csv"), io::CsvTable::read(table1), Cell::unknown);
+    replication::compare(cells, "Table 1", "index",
+                         {"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"},
+                         printed("table1_observations.csv"), io::CsvTable::read(table1), Cell::unknown);
     const auto prior = prior_for(inputs, physics.reading());
     const auto printed_prior = read_prior(printed_directory + "/table2_prior.csv");
     for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
@@ -151,14 +100,15 @@ int main(int argc, char** argv) {
       add("lower", printed_prior.lower()[row], prior.lower()[row]);
       add("upper", printed_prior.upper()[row], prior.upper()[row]);
     }
-    compare(cells, "Table 3", "sampler", {"friction_force_n", "natural_frequency_hz"},
-            printed("table3_pbox_area.csv"), io::CsvTable::read(table3), Cell::unknown);
+    replication::compare(cells, "Table 3", "sampler", {"friction_force_n", "natural_frequency_hz"},
+                         printed("table3_pbox_area.csv"), io::CsvTable::read(table3), Cell::unknown);
     const auto printed_counts = printed("table4_iteration_counts.csv");
     const auto our_counts = io::CsvTable::read(table4);
     for (const auto* table : {&printed_counts, &our_counts}) {
       static_cast<void>(positive_integers(*table, "iterations"));
     }
-    compare(cells, "Table 4", "iterations", {"TMCMC", "TMCMC-II"}, printed_counts, our_counts, 0.0);
+    replication::compare(cells, "Table 4", "iterations", {"TMCMC", "TMCMC-II"}, printed_counts, our_counts,
+                         0.0);
     if (!replicated.empty()) {
       const auto tables = read_printed_tables(printed_directory + "/table3_pbox_area.csv",
                                               printed_directory + "/table4_iteration_counts.csv");

@@ -8,41 +8,15 @@
 #include <cmath>
 
 #include "inputs.hpp"
-#include "pbox/pbox.hpp"
-#include "replication/verdict.hpp"
+#include "replication/exact_runs.hpp"
+#include "statistics/summary.hpp"
 #include "tmcmc/parallel.hpp"
 
 using namespace experiments;
 
 namespace {
 
-using Ecdfs = std::array<std::vector<pbox::Ecdf>, friction::parameter_count>;
-
-/// R sets of N independent exact draws. Stage 1 keeps them apart from the noise of synthetic observations, stage 0.
-Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study,
-                 long runs, long samples) {
-  Ecdfs ecdfs;
-  for (long run = 0; run < runs; ++run) {
-    std::array<std::vector<double>, friction::parameter_count> columns;
-    for (long row = 0; row < samples; ++row) {
-      const auto words = tmcmc::random_words(
-          {.seed = seed, .study = study, .run = static_cast<std::uint32_t>(run)},
-          {.purpose = tmcmc::Purpose::data, .stage = 1, .row = static_cast<std::uint64_t>(row)});
-      std::array<double, friction::parameter_count> uniforms{};
-      std::transform(words.begin(), words.end(), uniforms.begin(), tmcmc::uniform_open);
-      const auto point = posterior.draw(uniforms);
-      for (std::size_t p = 0; p < point.size(); ++p) {
-        columns[p].push_back(point[p]);
-      }
-    }
-    for (std::size_t p = 0; p < columns.size(); ++p) {
-      ecdfs[p].emplace_back(std::move(columns[p]));
-    }
-  }
-  return ecdfs;
-}
-
-void write_pboxes(io::CsvWriter& csv, const Ecdfs& ecdfs, long points) {
+void write_pboxes(io::CsvWriter& csv, const replication::Ecdfs& ecdfs, long points) {
   for (std::size_t p = 0; p < ecdfs.size(); ++p) {
     const auto box = pbox::envelope(ecdfs[p]);
     const double low = box.x.front();
@@ -98,8 +72,8 @@ int main(int argc, char** argv) {
                                            std::vector<double>(static_cast<std::size_t>(studies)));
     io::Progress progress("pbox_floor", static_cast<std::size_t>(studies), !program.quiet());
     tmcmc::for_each_block(studies, 1, options.threads, [&](auto, auto begin, auto) {
-      const auto ecdfs =
-          exact_runs(posterior, options.seed, static_cast<std::uint32_t>(begin), run_options.runs, samples);
+      const auto ecdfs = replication::exact_runs(posterior, options.seed, static_cast<std::uint32_t>(begin),
+                                                 run_options.runs, samples);
       for (std::size_t p = 0; p < ecdfs.size(); ++p) {
         areas[p][static_cast<std::size_t>(begin)] = pbox::area_metric(ecdfs[p]);
       }
@@ -114,7 +88,7 @@ int main(int argc, char** argv) {
       auto sorted = areas[p];
       std::sort(sorted.begin(), sorted.end());
       for (std::size_t q = 0; q < quantiles.size(); ++q) {
-        quantiles[q][p] = replication::sample_quantile(sorted, probabilities[q]);
+        quantiles[q][p] = statistics::sample_quantile(sorted, probabilities[q]);
       }
       program.report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], quantiles[0][p],
                      quantiles[1][p], quantiles[2][p]);
@@ -126,7 +100,8 @@ int main(int argc, char** argv) {
       csv->row(k, areas[0][k], areas[1][k], areas[2][k], areas[3][k]);
     }
     if (pbox_csv) {
-      write_pboxes(*pbox_csv, exact_runs(posterior, options.seed, 0, run_options.runs, samples), points);
+      write_pboxes(*pbox_csv, replication::exact_runs(posterior, options.seed, 0, run_options.runs, samples),
+                   points);
     }
     io::commit_all(csv, pbox_csv, summary_csv);
   });

@@ -6,8 +6,8 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-#include "claim_inputs.hpp"
 #include "inputs.hpp"
+#include "replication/claim_tables.hpp"
 #include "replication/claims.hpp"
 
 using namespace experiments;
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
 
   return program.run(argc, argv, [&] {
     const auto reading = physics.reading();
-    const auto [ids, places, texts] = read_claims(claims);
+    const auto [ids, places, texts] = replication::read_claims(claims);
     const auto printed = read_printed_tables(table3, table4);
     const auto studies = read_studies(replicated, printed);
     const auto observations = read_observations(inputs.observations);
@@ -98,8 +98,8 @@ int main(int argc, char** argv) {
         .audit = audit,
         .stated = stated,
         .exceedance = exact.exceedance(stated.friction_force_n),
-        .iterations_and_error = iterations_and_error(runs, exact.mean()),
-        .floor_n = median_of_column(floor, "friction_force_n")};
+        .iterations_and_error = replication::iterations_and_error(runs, exact.mean()),
+        .floor_n = replication::median_of_column(floor, "friction_force_n")};
 
     std::string markdown = "| | claim | number | verdict on the claim | evidence |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < ids.size(); ++i) {

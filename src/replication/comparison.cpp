@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "friction/angle.hpp"
+#include "replication/columns.hpp"
 
 namespace replication {
 
@@ -78,6 +82,53 @@ std::string rows_of_table4(const std::vector<ComparedCell>& cells) {
 }
 
 }  // namespace
+
+void compare(std::vector<ComparedCell>& cells, const std::string& name, const std::string& key,
+             const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
+             double missing) {
+  struct Source {
+    std::map<std::string, std::size_t> rows;
+    std::map<std::string, std::vector<double>> numbers;
+  };
+  const auto source = [&](const io::CsvTable& table) {
+    const auto own_keys = table.text(key);
+    require_once(table, own_keys, key, "each value once");
+    Source result;
+    for (std::size_t row = 0; row < own_keys.size(); ++row) {
+      result.rows.emplace(own_keys[row], row);
+    }
+    for (const auto& column : columns) {
+      result.numbers[column] = table.numbers(column);
+    }
+    return result;
+  };
+  const Source of_printed = source(printed);
+  const Source of_ours = source(ours);
+  auto keys = printed.text(key);
+  for (const auto& k : ours.text(key)) {
+    if (of_printed.rows.count(k) == 0) {
+      keys.push_back(k);
+    }
+  }
+  const auto value = [&](const Source& in, const std::string& column, const std::string& k) {
+    const auto found = in.rows.find(k);
+    return found == in.rows.end() ? missing : in.numbers.at(column)[found->second];
+  };
+  for (const auto& k : keys) {
+    for (const auto& column : columns) {
+      cells.push_back({.table = name,
+                       .row = k,
+                       .column = column,
+                       .printed = value(of_printed, column, k),
+                       .ours = value(of_ours, column, k)});
+    }
+  }
+}
+
+double difference(const ComparedCell& cell) {
+  return cell.column == "phase_deg" ? friction::angle_residual_deg(cell.ours, cell.printed)
+                                    : cell.ours - cell.printed;
+}
 
 void place_among_studies(std::vector<ComparedCell>& cells, const std::vector<StudySummary>& studies,
                          const std::vector<PrintedArea>& areas, const std::vector<PrintedCounts>& counts,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/csv.hpp"
 #include "replication/published.hpp"
 
 namespace replication {
@@ -24,6 +25,16 @@ struct ComparedCell {
   PValue p = {unknown, unknown};             ///< not adjusted
   std::string verdict = {};                  ///< name_of(Compatibility)
 };
+
+/// Appends a cell for each row of either table and each of the columns; rows are found by the key column. Values that a table
+/// lacks count as `missing`.
+/// \throws io::InputError naming file, line, column and value; for a key that stands twice.
+void compare(std::vector<ComparedCell>& cells, const std::string& name, const std::string& key,
+             const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
+             double missing);
+
+/// Ours minus printed; of a phase angle, deg, the shortest way.
+[[nodiscard]] double difference(const ComparedCell& cell);
 
 /// Places the cells of "Table 3" (rows are samplers, columns parameters) and "Table 4" (rows are numbers of iterations, columns
 /// samplers) among the studies, and appends the joint tests: rows "areas", "counts", each sampler, "all". One p-value is that of

@@ -7,7 +7,7 @@
 
 #include "replication/run_worth.hpp"
 
-namespace experiments {
+namespace replication {
 
 /// The claims in the order of their file.
 struct ClaimTable {
@@ -21,10 +21,10 @@ struct ClaimTable {
 /// Over the runs of a study, as sampling_study writes them: rank correlation of the iterations with the distance of the mean friction
 /// force from the exact one.
 /// \throws io::InputError naming file, line, column and value.
-[[nodiscard]] replication::RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n);
+[[nodiscard]] RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n);
 
 /// Median of a column of positive numbers.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] double median_of_column(const std::string& path, const std::string& column);
 
-}  // namespace experiments
+}  // namespace replication

@@ -1,18 +1,21 @@
-#include "claim_inputs.hpp"
+#include "replication/claim_tables.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "inputs.hpp"
+#include "io/csv.hpp"
 #include "replication/claims.hpp"
+#include "replication/columns.hpp"
 
-namespace experiments {
+namespace replication {
 
 ClaimTable read_claims(const std::string& path) {
   const auto table = io::CsvTable::read(path);
   ClaimTable claims{table.text("id"), table.text("place"), table.text("claim")};
   require_once(table, claims.ids, "id", "each claim once");
-  const auto& known = replication::claim_ids();
+  const auto& known = claim_ids();
   const std::string all = fmt::format("{} to {}", known.front(), known.back());
   const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
@@ -31,7 +34,7 @@ ClaimTable read_claims(const std::string& path) {
   return claims;
 }
 
-replication::RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n) {
+RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n) {
   const auto table = io::CsvTable::read(path);
   require_runs_once(table);
   const auto iterations = positive_integers(table, "iterations");
@@ -42,7 +45,7 @@ replication::RankCorrelation iterations_and_error(const std::string& path, doubl
   for (double& mean : errors) {
     mean = std::fabs(mean - exact_mean_n);
   }
-  return replication::rank_correlation(std::vector<double>(iterations.begin(), iterations.end()), errors);
+  return rank_correlation(std::vector<double>(iterations.begin(), iterations.end()), errors);
 }
 
 double median_of_column(const std::string& path, const std::string& column) {
@@ -51,7 +54,7 @@ double median_of_column(const std::string& path, const std::string& column) {
     throw io::InputError(path + ": expected at least one row");
   }
   std::sort(values.begin(), values.end());
-  return replication::sample_quantile(values, 0.5);
+  return sample_quantile(values, 0.5);
 }
 
-}  // namespace experiments
+}  // namespace replication

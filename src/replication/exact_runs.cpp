@@ -1,0 +1,33 @@
+#include "replication/exact_runs.hpp"
+
+#include <algorithm>
+
+#include "tmcmc/random.hpp"
+
+namespace replication {
+
+Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study,
+                 long runs, long samples) {
+  constexpr std::uint32_t stage = 1;  // 0 is the noise of synthetic observations
+  Ecdfs ecdfs;
+  for (long run = 0; run < runs; ++run) {
+    std::array<std::vector<double>, friction::parameter_count> columns;
+    for (long row = 0; row < samples; ++row) {
+      const auto words = tmcmc::random_words(
+          {.seed = seed, .study = study, .run = static_cast<std::uint32_t>(run)},
+          {.purpose = tmcmc::Purpose::data, .stage = stage, .row = static_cast<std::uint64_t>(row)});
+      std::array<double, friction::parameter_count> uniforms{};
+      std::transform(words.begin(), words.end(), uniforms.begin(), tmcmc::uniform_open);
+      const auto point = posterior.draw(uniforms);
+      for (std::size_t p = 0; p < point.size(); ++p) {
+        columns[p].push_back(point[p]);
+      }
+    }
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+      ecdfs[p].emplace_back(std::move(columns[p]));
+    }
+  }
+  return ecdfs;
+}
+
+}  // namespace replication
