@@ -8,6 +8,7 @@
 #include "reference_sampler.hpp"
 #include "replication/study.hpp"
 #include "replication/synthetic.hpp"
+#include "tmcmc/detail/stage.hpp"
 
 namespace {
 
@@ -157,7 +158,7 @@ BENCHMARK(normals_counter_based)->Unit(benchmark::kMicrosecond);
 void choose_step(benchmark::State& state) {
   const Setting s;
   const auto& arm = s.arms[static_cast<std::size_t>(state.range(0))];
-  auto population = tmcmc::initial_state(s.problem, arm.options, {.seed = 1});
+  auto population = tmcmc::init(s.problem, arm.options, {.seed = 1});
   for (auto _ : state) {
     benchmark::DoNotOptimize(
         tmcmc::choose_step(tmcmc::as_span(population.log_likelihood), 1.0, arm.options.criterion));
@@ -169,12 +170,12 @@ void one_stage(benchmark::State& state) {
   const Setting s;
   const auto& options = s.arms[0].options;
   const tmcmc::StreamKey key{.seed = 1};
-  tmcmc::Workspace work(s.problem, options, key);
-  const auto from = tmcmc::initial_state(s.problem, options, key);
+  tmcmc::detail::Stage stage(s.problem, options, key);
+  const auto from = tmcmc::init(s.problem, options, key);
   const auto step = tmcmc::choose_step(tmcmc::as_span(from.log_likelihood), 1.0, options.criterion);
   tmcmc::State to;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(tmcmc::advance(s.problem, options, key, step, from, to, work));
+    benchmark::DoNotOptimize(stage.advance(step, from, to));
   }
 }
 BENCHMARK(one_stage)->Unit(benchmark::kMicrosecond);

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
-    if (!sampler.deviation) {
+    if (!sampler.given("deviation")) {
       reading.sampler.criterion.deviation =
           tmcmc::Deviation::population;  // the identity; N-1 stands beside it
     }
@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
                         tmcmc::effective_sample_size(log_likelihood, by_sample.step)});
         return by_cov;
       };
-      const auto first = tmcmc::run(problem, arms[0].options, key, both_rules);
+      const auto first = tmcmc::run(problem, arms[0].options, key, {}, both_rules);
       const auto second = tmcmc::run(problem, arms[1].options, key);
       const double n = static_cast<double>(reading.sampler.samples);
       Largest path;

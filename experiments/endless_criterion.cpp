@@ -16,8 +16,8 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
-  sampler.max_stages = 200;
-  sampler.minimum_step = 0.0;  // a step of 0 is what is to be shown
+  sampler.values["max_stages"] = "200";
+  sampler.values["minimum_step"] = "0";  // a step of 0 is what is to be shown
   program.add_output("CSV: target_fraction, stages, beta, smallest_step, stop");
   inputs.add_observations_to(program);
   inputs.add_prior_to(program);

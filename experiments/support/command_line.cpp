@@ -120,6 +120,15 @@ void Program::add_choice(const std::string& option, std::optional<std::string>& 
   add_choice_to(*app_, option, value, names, description, group);
 }
 
+void Program::add_checked_text(const std::string& option, std::optional<std::string>& value,
+                               const std::string& type, const Check& check, const std::string& description,
+                               const std::string& group) {
+  app_->add_option(option, value, description)
+      ->group(group)
+      ->type_name(type)
+      ->transform(validator(option, check));
+}
+
 void Program::add_flag(const std::string& option, bool& value, const std::string& description,
                        const std::string& group) {
   app_->add_flag(option, value, description)->group(group);

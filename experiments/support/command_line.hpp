@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,10 @@ class Program {
   void add_choice(const std::string& option, std::optional<std::string>& value,
                   const std::vector<std::string>& names, const std::string& description,
                   const std::string& group = "Reading, option by option");
+
+  /// Adds an option for what the check accepts; --help calls its values `type`.
+  void add_checked_text(const std::string& option, std::optional<std::string>& value, const std::string& type,
+                        const Check& check, const std::string& description, const std::string& group);
 
   /// Adds an option without a value.
   void add_flag(const std::string& option, bool& value, const std::string& description,
@@ -142,11 +147,10 @@ struct PhysicsOptions {
 
 /// The sampler behind --reading, option by option; or the recommended one, with the same options.
 struct SamplerOptions {
-  std::optional<std::string> deviation, counted, move, centre, boundary;
-  std::optional<std::string> sampler, resampling, scale_rule, coordinates, random_subsets, cross_fit;
-  std::optional<long> samples, chains, move_steps, max_move_steps, max_stages, evaluation_budget;
-  std::optional<double> proposal_scale, minimum_step, mixing_correlation, target_acceptance,
-      independent_fraction;
+  std::optional<std::string> sampler;
+  /// What was given, by the name that the option has in tmcmc::option_table().
+  std::map<std::string, std::optional<std::string>, std::less<>> values;
+  [[nodiscard]] std::optional<std::string> given(std::string_view name) const;
   double cov_target = 1.0;
   double ess_fraction = 0.5;
   bool diagnose = false;
@@ -154,7 +158,7 @@ struct SamplerOptions {
   void add_to(Program& program);
   /// Replaces the sampler of the reading as the options say. Kind and target of the criterion, which belong to the two
   /// samplers that are compared, are not touched (replication::paper_arms).
-  /// \throws std::invalid_argument naming the option, for values that do not go together.
+  /// \throws errors::InvalidValue naming the option, for values that are incompatible.
   void apply(replication::Reading& reading) const;
 };
 

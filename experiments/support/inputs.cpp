@@ -45,32 +45,24 @@ void require_interval(const io::CsvTable& table, std::size_t row, double lower, 
   }
 }
 
-/// A complaint such as "friction_force.lower = 3: expected less than 2 N", with its place in the file of the prior. What
-/// is no regular file cannot be read a second time.
-[[noreturn]] void fail_prior(const std::string& path, const std::string& complaint) {
-  const std::string expected = expectation(complaint);
+/// A value that is refused, with its place in the file of the prior. What is no regular file cannot be read a second time.
+[[noreturn]] void fail_prior(const std::string& path, const errors::InvalidValue& invalid) {
   std::error_code ignored;
-  if (!expected.empty() && std::filesystem::is_regular_file(path, ignored)) {
+  if (std::filesystem::is_regular_file(path, ignored)) {
     const auto table = io::CsvTable::read(path);
     const auto names = table.text("parameter");
     for (std::size_t row = 0; row < names.size(); ++row) {
       for (const char* side : {"lower", "upper"}) {
-        if (complaint.starts_with(fmt::format("{}.{} = ", names[row], side))) {
-          table.fail(row, side, expected);
+        if (invalid.field() == names[row] + "." + side) {
+          table.fail(row, side, invalid.expected());
         }
       }
     }
   }
-  throw io::InputError(path + ": " + complaint);
+  throw io::InputError(fmt::format("{}: {}", path, invalid.what()));
 }
 
 }  // namespace
-
-std::string expectation(const std::string& complaint) {
-  constexpr std::string_view before = ": expected ";
-  const auto found = complaint.rfind(before);
-  return found == std::string::npos ? "" : complaint.substr(found + before.size());
-}
 
 void InputFiles::add_observations_to(Program& program) {
   observations = published("table1_observations.csv");
@@ -216,7 +208,7 @@ estimation::ExactPosterior exact_posterior_for(const InputFiles& inputs,
     if (inputs.prior.empty()) {  // Table 2 is valid: the observations leave no feasible force inside it
       throw io::InputError(fmt::format("{}: {}", inputs.observations, error.what()));
     }
-    fail_prior(inputs.prior, error.what());
+    fail_prior(inputs.prior, error);
   }
 }
 

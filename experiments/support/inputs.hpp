@@ -40,9 +40,6 @@ struct InputFiles {
   void add_prior_to(Program& program);
 };
 
-/// What stands behind the last "expected" of a complaint such as "friction_force.lower = 3: expected less than 2 N".
-[[nodiscard]] std::string expectation(const std::string& complaint);
-
 /// Path of a file in data/published/ of the current directory, or else of the source tree.
 [[nodiscard]] std::string published(const std::string& file);
 

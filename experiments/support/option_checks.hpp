@@ -30,14 +30,4 @@ struct Check {
 /// One of the words.
 [[nodiscard]] Check one_of(const std::vector<std::string>& words);
 
-/// Sets the target to the choice, if one was made; the names stand in the order of the enum.
-template <class Enum>
-void choose(const std::optional<std::string>& value, const std::vector<std::string>& names, Enum& target) {
-  for (std::size_t i = 0; value && i < names.size(); ++i) {
-    if (names[i] == *value) {
-      target = static_cast<Enum>(i);
-    }
-  }
-}
-
 }  // namespace experiments

@@ -2,22 +2,28 @@
 
 #include "command_line.hpp"
 #include "io/interrupt.hpp"
+#include "names/names.hpp"
 
 namespace experiments {
 
 namespace {
 
-const std::vector<std::string> limit_names = {"grid", "supremum"};
-const std::vector<std::string> phase_names = {"discrete-bin", "fourier-coefficient"};
+/// Sets the target to the choice, if one was made.
+template <class Enum>
+void choose(const std::optional<std::string>& name, Enum& target) {
+  target = name ? names::value_of<Enum>(*name).value_or(target) : target;
+}
 
 }  // namespace
 
 void PhysicsOptions::add_to(Program& program) {
-  program.add_choice("--reading", reading_name, replication::reading_names(),
+  program.add_choice("--reading", reading_name, names::all<replication::ReadingName>(),
                      "Set of options: how text, published scripts and mathematics are read");
   add_driving_force_to(program);
-  program.add_choice("--limit", limit, limit_names, "S in the limit of continuous motion (Eq. 18)");
-  program.add_choice("--phase", phase, phase_names, "Phase angle (Eq. 21): bin of a transform, or exact");
+  program.add_choice("--limit", limit, names::all<friction::LimitRule>(),
+                     "S in the limit of continuous motion (Eq. 18)");
+  program.add_choice("--phase", phase, names::all<friction::PhaseRule>(),
+                     "Phase angle (Eq. 21): bin of a transform, or exact");
   program.add_number("--infeasible-log-likelihood", infeasible_log_likelihood,
                      number([](double x) { return x < 0.0; }, "a negative number or -inf"),
                      "Log-likelihood where the motion is not continuous: a number, or -inf",
@@ -30,8 +36,8 @@ void PhysicsOptions::add_driving_force_to(Program& program) {
 
 replication::Reading PhysicsOptions::reading() const {
   replication::Reading r = replication::reading(replication::parse_reading(reading_name));
-  choose(limit, limit_names, r.physics.limit);
-  choose(phase, phase_names, r.physics.phase);
+  choose(limit, r.physics.limit);
+  choose(phase, r.physics.phase);
   r.infeasible_log_likelihood = infeasible_log_likelihood.value_or(r.infeasible_log_likelihood);
   r.physics.driving_force_n = driving_force_n;
   return r;

@@ -12,9 +12,11 @@
 /// which gives the same form with other constants; both are computed by response_constants().
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 #include <type_traits>
 
 #include "portable_math/elementary.hpp"
@@ -26,12 +28,18 @@ enum class LimitRule {
   grid,     ///< maximum over tau = pi/15 ... 14 pi/15, as the published scripts do
   supremum  ///< supremum over the half-period (0, pi)
 };
+constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<LimitRule>) {
+  return {"grid", "supremum"};
+}
 
 /// How the phase angle (Eq. 21) is taken from the two signals.
 enum class PhaseRule {
   discrete_bin,  ///< bin 30 of a 901-point transform of 30 periods, end point repeated (published scripts)
   fourier_coefficient  ///< first Fourier coefficient, in closed form
 };
+constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<PhaseRule>) {
+  return {"discrete-bin", "fourier-coefficient"};
+}
 
 /// The excitation, and how the equations that texts read differently are taken.
 struct Physics {

@@ -52,9 +52,7 @@ Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth) {
 }
 
 std::vector<Configuration> configurations(const tmcmc::Options& published) {
-  using tmcmc::MoveKind;
   using tmcmc::Resampling;
-  using tmcmc::ScaleRule;
   std::vector<Configuration> list;
   tmcmc::Options start = published;
   start.diagnose = true;
@@ -68,41 +66,43 @@ std::vector<Configuration> configurations(const tmcmc::Options& published) {
   add("published", "N = 1000, N/2, 3 steps", [](auto&) {});
   for (const auto& [value, fraction] :
        {std::pair{"9 N/10", 0.9}, {"3 N/4", 0.75}, {"N/4", 0.25}, {"N/10", 0.1}}) {
-    add("criterion", value, [f = fraction](auto& o) { o.criterion.target = f; });
+    add("criterion", value, [f = fraction](auto& o) { o.criterion.rule = tmcmc::EffectiveSampleSize{f}; });
   }
   for (const tmcmc::Index n : {300, 3000, 10000}) {
     add("samples", std::to_string(n), [n](auto& o) { o.samples = n; });
   }
   for (const tmcmc::Index steps : {1, 2, 5, 10, 20}) {
-    add("steps", std::to_string(steps), [steps](auto& o) { o.move_steps = steps; });
+    add("steps", std::to_string(steps), [steps](auto& o) { o.move = tmcmc::ResampleMove{.steps = steps}; });
   }
-  add("steps", "until correlation 0.9", [](auto& o) { o.mixing_correlation = 0.9; });
+  add("steps", "until correlation 0.9",
+      [](auto& o) { o.move = tmcmc::ResampleMove{.mixing_correlation = 0.9}; });
   for (const auto& [value, scale] : {std::pair{"0.1", 0.1}, {"0.4", 0.4}, {"0.8", 0.8}}) {
-    add("scale", value, [s = scale](auto& o) { o.proposal_scale = s; });
+    add("scale", value, [s = scale](auto& o) { o.scale_rule = tmcmc::FixedScale{s}; });
   }
-  add("scale", "2.38/sqrt(d)", [](auto& o) { o.scale_rule = ScaleRule::dimension; });
-  add("scale", "acceptance 0.3", [](auto& o) { o.scale_rule = ScaleRule::target_acceptance; });
-  add("scale", "1/9 + 8/9 acceptance", [](auto& o) { o.scale_rule = ScaleRule::acceptance_linked; });
+  add("scale", "2.38/sqrt(d)", [](auto& o) { o.scale_rule = tmcmc::DimensionScale{}; });
+  add("scale", "acceptance 0.3", [](auto& o) { o.scale_rule = tmcmc::TargetAcceptance{}; });
+  add("scale", "1/9 + 8/9 acceptance", [](auto& o) { o.scale_rule = tmcmc::AcceptanceLinked{}; });
   add("resampling", "residual", [](auto& o) { o.resampling = Resampling::residual; });
   add("resampling", "stratified", [](auto& o) { o.resampling = Resampling::stratified; });
   add("resampling", "systematic", [](auto& o) { o.resampling = Resampling::systematic; });
 
   // From here on the moves get better one by one, each on top of those before.
-  start.boundary = tmcmc::Boundary::reject;
   start.criterion.counted = tmcmc::Counted::feasible;
   start.resampling = Resampling::systematic;
-  start.scale_rule = ScaleRule::dimension;
-  start.coordinates = tmcmc::Coordinates::unbounded;
+  start.scale_rule = tmcmc::DimensionScale{};
+  tmcmc::MetropolisProposal proposal{.coordinates = tmcmc::Coordinates::unbounded};
+  start.proposal = proposal;
   add("moves", "unbounded, 2.38/sqrt(d)", [](auto&) {});
-  start.random_subsets = true;
+  proposal.random_subsets = true;
+  start.proposal = proposal;
   add("moves", "+ random subsets", [](auto&) {});
-  start.independent_fraction = 0.5;
+  proposal.independent_fraction = 0.5;
+  start.proposal = proposal;
   add("moves", "+ independent proposals", [](auto&) {});
-  start.move = MoveKind::waste_free;
   start.samples = 3200;
   for (const tmcmc::Index chains : {8, 16, 32, 64, 128}) {
     add("chains", "waste-free, " + std::to_string(chains) + " chains",
-        [chains](auto& o) { o.chains = chains; });
+        [chains](auto& o) { o.move = tmcmc::WasteFree{chains}; });
   }
   for (const tmcmc::Index budget : {4000, 8000, 16000, 31000, 62000, 124000}) {
     list.push_back(

@@ -60,7 +60,7 @@ BenchmarkProblem gaussian(Index d, Index budget, Index chains, Index samples) {
                      .marginal_cdf = [](Index, double x) { return normal_cdf(x); },
                      .in_first_mode = {},
                      .options = tmcmc::recommended_options(budget)};
-  p.options.chains = chains;
+  p.options.move = tmcmc::WasteFree{chains};
   p.options.samples = samples;  // more stages than the recommended number of samples leaves room for
   p.options.cross_fit = d >= 20;
   return p;
@@ -94,7 +94,7 @@ BenchmarkProblem two_normals() {
       .in_first_mode = [](const auto& x) { return x[0] + x[1] < 0.0; },
       .first_mode_mass = mass,
       .options = tmcmc::recommended_options(62000)};
-  p.options.chains = 100;
+  p.options.move = tmcmc::WasteFree{100};
   p.options.samples = p.options.samples / 100 * 100;
   return p;
 }
@@ -207,7 +207,7 @@ BenchmarkProblem shear_frame() {
       .in_first_mode = [=](const auto& x) { return x[0] < between; },
       .first_mode_mass = first->cdf(between),
       .options = tmcmc::recommended_options(31000)};
-  p.options.chains = 100;
+  p.options.move = tmcmc::WasteFree{100};
   p.options.samples = p.options.samples / 100 * 100;
   return p;
 }

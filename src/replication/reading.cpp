@@ -1,9 +1,10 @@
 #include "replication/reading.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "errors/invalid_value.hpp"
+#include "names/names.hpp"
+
 namespace replication {
 
 Reading reading(ReadingName name) {
@@ -13,7 +14,7 @@ Reading reading(ReadingName name) {
     case ReadingName::as_published:
       r.sampler.criterion.deviation = tmcmc::Deviation::sample;
       r.sampler.criterion.counted = tmcmc::Counted::all;
-      r.sampler.boundary = tmcmc::Boundary::redraw;
+      r.sampler.proposal = tmcmc::RedrawnWalk{};
       r.physics.limit = friction::LimitRule::grid;
       r.physics.phase = friction::PhaseRule::discrete_bin;
       r.infeasible_log_likelihood = -1e10;
@@ -21,8 +22,7 @@ Reading reading(ReadingName name) {
       break;
     case ReadingName::as_worded:
       r.sampler.criterion.counted = tmcmc::Counted::all;
-      r.sampler.move = tmcmc::MoveKind::growing_chains;
-      r.sampler.move_steps = 1;
+      r.sampler.move = tmcmc::GrowingChains{};
       r.sampler.centre = tmcmc::Centre::plain_mean;
       r.physics.limit = friction::LimitRule::grid;
       r.physics.phase = friction::PhaseRule::discrete_bin;
@@ -47,28 +47,20 @@ friction::Physics with_exact_rules(friction::Physics physics) {
   return physics;
 }
 
-const std::vector<std::string>& reading_names() {
-  static const std::vector<std::string> names = {"as_published", "as_worded", "corrected"};
-  return names;
-}
-
 ReadingName parse_reading(const std::string& name) {
-  const auto& names = reading_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw errors::InvalidValue("reading", name, "as_published, as_worded or corrected");
+  const auto found = names::value_of<ReadingName>(name);
+  if (!found) {
+    throw errors::InvalidValue("reading", name, names::one_of(names::all<ReadingName>()));
   }
-  return static_cast<ReadingName>(found - names.begin());
+  return *found;
 }
 
 std::vector<Arm> paper_arms(const Reading& reading, double cov_target, double ess_fraction) {
   Arm tmcmc{"TMCMC", reading.sampler};
   tmcmc.options.infeasible_level = reading.infeasible_log_likelihood;
-  tmcmc.options.criterion.kind = tmcmc::CriterionKind::coefficient_of_variation;
-  tmcmc.options.criterion.target = cov_target;
+  tmcmc.options.criterion.rule = tmcmc::CoefficientOfVariation{cov_target};
   Arm tmcmc_ii{"TMCMC-II", tmcmc.options};
-  tmcmc_ii.options.criterion.kind = tmcmc::CriterionKind::effective_sample_size;
-  tmcmc_ii.options.criterion.target = ess_fraction;
+  tmcmc_ii.options.criterion.rule = tmcmc::EffectiveSampleSize{ess_fraction};
   return {tmcmc, tmcmc_ii};
 }
 

@@ -3,8 +3,11 @@
 /// each difference is one option of a library, and a reading is a set of options.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "friction/likelihood.hpp"
@@ -29,6 +32,9 @@ enum class ReadingName {
   as_worded,     ///< the text of the paper, as far as it can be run
   corrected      ///< correct mathematics
 };
+constexpr std::array<std::string_view, 3> enumerator_names(std::type_identity<ReadingName>) {
+  return {"as_published", "as_worded", "corrected"};
+}
 
 /// The options of a reading, as the README tabulates them.
 [[nodiscard]] Reading reading(ReadingName name);
@@ -40,9 +46,6 @@ enum class ReadingName {
 
 /// The same rig with the limit and the phase of the corrected reading.
 [[nodiscard]] friction::Physics with_exact_rules(friction::Physics physics);
-
-/// Names as used on command lines, in the order of ReadingName.
-[[nodiscard]] const std::vector<std::string>& reading_names();
 
 /// \throws errors::InvalidValue naming the readings there are.
 [[nodiscard]] ReadingName parse_reading(const std::string& name);

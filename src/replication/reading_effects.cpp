@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "names/names.hpp"
 #include "replication/study.hpp"
 #include "replication/synthetic.hpp"
 
@@ -47,7 +48,7 @@ AreaEffect area_effect(const std::vector<StudySummary>& studies, const std::vect
 std::vector<ReadingVariant> reading_variants(tmcmc::Index samples) {
   const Reading base = reading(ReadingName::as_published);
   std::vector<ReadingVariant> list;
-  for (const auto& name : reading_names()) {
+  for (const auto& name : names::all<ReadingName>()) {
     list.push_back({name, reading(parse_reading(name))});
   }
   const auto add = [&](const std::string& name, auto change) {
@@ -58,11 +59,11 @@ std::vector<ReadingVariant> reading_variants(tmcmc::Index samples) {
   using V = ReadingVariant;
   add("deviation population",
       [](V& v) { v.reading.sampler.criterion.deviation = tmcmc::Deviation::population; });
-  add("1 step a move", [](V& v) { v.reading.sampler.move_steps = 1; });
-  add("5 steps a move", [](V& v) { v.reading.sampler.move_steps = 5; });
-  add("growing chains", [](V& v) { v.reading.sampler.move = tmcmc::MoveKind::growing_chains; });
+  add("1 step a move", [](V& v) { v.reading.sampler.move = tmcmc::ResampleMove{.steps = 1}; });
+  add("5 steps a move", [](V& v) { v.reading.sampler.move = tmcmc::ResampleMove{.steps = 5}; });
+  add("growing chains", [](V& v) { v.reading.sampler.move = tmcmc::GrowingChains{}; });
   add("plain mean", [](V& v) { v.reading.sampler.centre = tmcmc::Centre::plain_mean; });
-  add("reject outside", [](V& v) { v.reading.sampler.boundary = tmcmc::Boundary::reject; });
+  add("reject outside", [](V& v) { v.reading.sampler.proposal = tmcmc::MetropolisProposal{}; });
   add("infeasible -inf", [](V& v) {
     v.reading.infeasible_log_likelihood = -std::numeric_limits<double>::infinity();
     v.reading.sampler.criterion.counted = tmcmc::Counted::feasible;

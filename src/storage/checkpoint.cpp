@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "errors/invalid_value.hpp"
 #include "io/csv.hpp"
 #include "io/files.hpp"
 
@@ -195,8 +196,8 @@ std::optional<tmcmc::Progress> read_checkpoint(const std::filesystem::path& path
     tmcmc::require_valid(progress, run.prior, run.options);
   } catch (const cereal::Exception&) {
     fail(path, "less than a checkpoint: expected more bytes");
-  } catch (const std::invalid_argument& invalid) {
-    fail(path, invalid.what());
+  } catch (const errors::InvalidValue& invalid) {
+    fail(path, fmt::format("{}: expected {}", invalid.field(), invalid.expected()));
   }
   return progress;
 }

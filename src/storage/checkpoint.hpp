@@ -15,7 +15,7 @@
 namespace storage {
 
 /// Writes the file anew; it appears complete or not at all (io::OutputFile).
-/// \throws io::OutputError; std::invalid_argument as settings.
+/// \throws io::OutputError; errors::InvalidValue as settings.
 void write_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                       const tmcmc::Progress& progress);
 

@@ -24,12 +24,12 @@ struct RunDescription {
 /// Name and value, the latter one line; numbers in digits that read back as the same double.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Every field of the options but those that change no number of a stage: threads, batch_rows and max_stages. Those of the
-/// criterion are called criterion.kind and so on.
+/// Each option that has a meaning under the others, but for those on which no number of a stage depends
+/// (OptionInfo::changes_samples).
 [[nodiscard]] Settings settings(const tmcmc::Options& options);
 
 /// The options, seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no box, and model.
-/// \throws std::invalid_argument if the model's description is not one line.
+/// \throws errors::InvalidValue if the model's description is not one line.
 [[nodiscard]] Settings settings(const RunDescription& run);
 
 }  // namespace storage

@@ -77,14 +77,15 @@ double normal_score(double t, double degrees_of_freedom) {
 void check_equilibrium(const Result& result, const Options& options, Warnings& warnings) {
   constexpr double most_in_a_stage = 4.5;
   constexpr double most_in_all = 3.0;
-  if (options.move != MoveKind::waste_free || options.chains < 3 || result.stages.empty()) {
+  const auto* waste_free = std::get_if<WasteFree>(&options.move);
+  if (waste_free == nullptr || waste_free->chains < 3 || result.stages.empty()) {
     return;
   }
   const StageRecord* largest = nullptr;
   double largest_score = 0.0;
   double sum = 0.0;
   for (const StageRecord& stage : result.stages) {
-    const double score = normal_score(stage.equilibrium_t, static_cast<double>(options.chains - 1));
+    const double score = normal_score(stage.equilibrium_t, static_cast<double>(waste_free->chains - 1));
     sum += score;
     if (largest == nullptr || score > largest_score) {
       largest = &stage;
@@ -160,7 +161,8 @@ Diagnostics diagnose(const Result& result, const Options& options, std::span<con
       return a.distinct_ancestors < b.distinct_ancestors;
     };
     const StageRecord& fewest = *std::min_element(result.stages.begin(), result.stages.end(), ancestors);
-    const double starts = options.move == MoveKind::waste_free ? static_cast<double>(options.chains) : n;
+    const auto* waste_free = std::get_if<WasteFree>(&options.move);
+    const double starts = waste_free != nullptr ? static_cast<double>(waste_free->chains) : n;
     warnings.below(static_cast<double>(fewest.distinct_ancestors), std::max(0.05 * starts, 3.0),
                    WarningKind::few_ancestors, of_stage("the number of different ancestors", fewest),
                    "take smaller steps of beta or more samples");

@@ -8,6 +8,7 @@
 
 #include "errors/invalid_value.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/detail/metropolis_proposal.hpp"
 #include "tmcmc/log_weights.hpp"
 #include "tmcmc/resampling.hpp"
 
@@ -57,8 +58,9 @@ Pass first_pass(const Problem& problem, const IndependentDraws& settings, const 
       static_cast<Index>(std::min(std::max(2000.0, settings.first_pass_share * half), 0.5 * half));
   Options options = recommended_options(std::max<Index>(share, 500));
   const Index samples = options.samples;
-  options.chains = std::clamp<Index>(samples / settings.steps_per_chain, 5, samples / 2);
-  options.samples = samples / options.chains * options.chains;
+  const Index chains = std::clamp<Index>(samples / settings.steps_per_chain, 5, samples / 2);
+  options.move = WasteFree{.chains = chains};
+  options.samples = samples / chains * chains;
   options.threads = settings.threads;
   options.batch_rows = settings.batch_rows;
   Population quarter;

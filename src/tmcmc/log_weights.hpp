@@ -4,6 +4,10 @@
 /// Sums run over blocks of a fixed size; `threads` changes no result.
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <type_traits>
+
 #include "tmcmc/types.hpp"
 
 namespace tmcmc {
@@ -13,12 +17,18 @@ enum class Deviation {
   population,  ///< N; then N_eff = N / (1 + CoV^2) exactly
   sample       ///< N - 1, as the published scripts
 };
+constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Deviation>) {
+  return {"population", "sample"};
+}
 
 /// Which samples a criterion counts.
 enum class Counted {
   all,
   feasible  ///< those whose log-likelihood is not minus infinity
 };
+constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Counted>) {
+  return {"all", "feasible"};
+}
 
 /// Number of log-likelihoods that are not minus infinity.
 [[nodiscard]] Index count_feasible(ConstDoubles log_likelihood);

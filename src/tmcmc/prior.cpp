@@ -35,14 +35,14 @@ double correlation_of(const Eigen::MatrixXd& factor, Index i, Index j) {
 Prior::Prior(Eigen::VectorXd lower, Eigen::VectorXd upper)
     : lower_(std::move(lower)), upper_(std::move(upper)), box_(true) {
   if (lower_.size() == 0 || lower_.size() != upper_.size()) {
-    throw std::invalid_argument("prior: expected as many lower as upper bounds, at least one of each");
+    throw errors::InvalidValue("prior", "", "as many lower as upper bounds, at least one of each");
   }
   for (Index j = 0; j < lower_.size(); ++j) {
     if (!std::isfinite(upper_[j] - lower_[j]) || !(std::nextafter(lower_[j], upper_[j]) < upper_[j])) {
-      std::ostringstream message;
-      message << "prior: bounds of parameter " << j << " are [" << std::setprecision(17) << lower_[j] << ", "
-              << upper_[j] << "]: expected finite numbers, lower < upper, with numbers between them";
-      throw std::invalid_argument(message.str());
+      std::ostringstream bounds;
+      bounds << std::setprecision(17) << "[" << lower_[j] << ", " << upper_[j] << "]";
+      throw errors::InvalidValue("prior: bounds of parameter " + std::to_string(j), bounds.str(),
+                                 "finite numbers, lower < upper, with numbers between them");
     }
     marginals_.push_back(Marginal::uniform(lower_[j], upper_[j]));
     names_.push_back("parameter " + std::to_string(j));

@@ -46,7 +46,7 @@ class Prior {
  public:
   /// Uniform on the box lower < x < upper (Table 2), with the names "parameter 0" and so on.
   /// \param lower,upper  one bound a parameter
-  /// \throws std::invalid_argument unless both have the same positive length, and lower < upper with a finite
+  /// \throws errors::InvalidValue unless both have the same positive length, and lower < upper with a finite
   ///         distance and at least one double between them.
   Prior(Eigen::VectorXd lower, Eigen::VectorXd upper);
 

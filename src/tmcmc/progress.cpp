@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <string>
+
+#include "errors/invalid_value.hpp"
 
 namespace tmcmc {
 
@@ -11,7 +12,7 @@ namespace {
 
 void require(bool condition, const std::string& field, const std::string& expected) {
   if (!condition) {
-    throw std::invalid_argument("progress." + field + ": expected " + expected);
+    throw errors::InvalidValue("progress." + field, "", expected);
   }
 }
 

@@ -20,7 +20,7 @@ struct Progress {
 
 /// Checks what resume relies on: sizes that go together, indices within them, points in the support of the prior, log-likelihoods that
 /// are none of NaN and plus infinity, beta in [0, 1].
-/// \throws std::invalid_argument naming the field, what it is and what was expected.
+/// \throws errors::InvalidValue naming the field, what it is and what was expected.
 void require_valid(const Progress& progress, const Prior& prior, const Options& options);
 
 }  // namespace tmcmc

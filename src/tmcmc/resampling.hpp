@@ -2,6 +2,10 @@
 /// Resampling: which samples the chains of a stage start from.
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <type_traits>
+
 #include "tmcmc/random.hpp"
 #include "tmcmc/types.hpp"
 
@@ -15,6 +19,9 @@ enum class Resampling {
   stratified,   ///< one draw from each n-th of the total weight
   systematic    ///< the same with one uniform number for all; the least spread
 };
+constexpr std::array<std::string_view, 4> enumerator_names(std::type_identity<Resampling>) {
+  return {"multinomial", "residual", "stratified", "systematic"};
+}
 
 /// Ancestors of `ancestors.size()` draws, in ascending order; their number need not be that of the weights. Linear time.
 /// \param weights  non-negative, with a positive sum

@@ -24,29 +24,36 @@ class Excess {
 
   double operator()(double step) {
     ++evaluations_;
-    if (criterion_.kind == CriterionKind::coefficient_of_variation) {
+    if (const auto* rule = std::get_if<CoefficientOfVariation>(&criterion_.rule)) {
       return portable_math::log(
           statistics_.coefficient_of_variation(step, criterion_.deviation, criterion_.counted) /
-          criterion_.target);
+          rule->target);
     }
     return of_effective_size(statistics_.effective_sample_size(step));
   }
 
   /// The limit of small steps: the feasible samples have equal weights.
   [[nodiscard]] double of_feasible(Index feasible) const {
-    if (criterion_.kind == CriterionKind::coefficient_of_variation) {
+    if (const auto* rule = std::get_if<CoefficientOfVariation>(&criterion_.rule)) {
       const double n = criterion_.deviation == Deviation::sample ? counted_ - 1.0 : counted_;
       return portable_math::log(std::sqrt(counted_ / n * (counted_ / static_cast<double>(feasible) - 1.0)) /
-                                criterion_.target);
+                                rule->target);
     }
     return of_effective_size(static_cast<double>(feasible));
+  }
+
+  /// Whether the criterion is N_eff = N, which no step but 0 meets.
+  [[nodiscard]] bool wants_equal_weights() const {
+    const auto* rule = std::get_if<EffectiveSampleSize>(&criterion_.rule);
+    return rule != nullptr && rule->fraction == 1.0;
   }
 
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
   [[nodiscard]] double of_effective_size(double size) const {
-    return 0.5 * portable_math::log(std::max(counted_ / size - 1.0, 0.0) / (1.0 / criterion_.target - 1.0));
+    const double fraction = std::get<EffectiveSampleSize>(criterion_.rule).fraction;
+    return 0.5 * portable_math::log(std::max(counted_ / size - 1.0, 0.0) / (1.0 / fraction - 1.0));
   }
 
   const WeightStatistics& statistics_;
@@ -57,23 +64,12 @@ class Excess {
 
 }  // namespace
 
-void Criterion::validate() const {
-  if (!(target > 0.0) || !std::isfinite(target)) {
-    throw std::invalid_argument("criterion.target = " + std::to_string(target) +
-                                ": expected a positive number");
-  }
-  if (kind == CriterionKind::effective_sample_size && target > 1.0) {
-    throw std::invalid_argument("criterion.target = " + std::to_string(target) +
-                                ": expected a fraction of the samples, at most 1");
-  }
-}
-
 Criterion coefficient_of_variation_rule(double target) {
-  return {.kind = CriterionKind::coefficient_of_variation, .target = target};
+  return {.rule = CoefficientOfVariation{target}};
 }
 
 Criterion effective_sample_size_rule(double fraction) {
-  return {.kind = CriterionKind::effective_sample_size, .target = fraction};
+  return {.rule = EffectiveSampleSize{fraction}};
 }
 
 TemperingStep choose_step(ConstDoubles log_likelihood, double remaining, const Criterion& criterion,
@@ -102,7 +98,7 @@ TemperingStep choose_step(ConstDoubles log_likelihood, double remaining, const C
         0.0)) {  // a NaN: one sample with the N-1 deviation, or 0/0 in N_eff = N with equal weights
     return finish(remaining, TemperingStatus::final_step);
   }
-  if (criterion.kind == CriterionKind::effective_sample_size && criterion.target == 1.0) {
+  if (excess.wants_equal_weights()) {
     result.status = TemperingStatus::zero_step;
     result.evaluations = excess.evaluations();
     return result;

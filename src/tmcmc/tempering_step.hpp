@@ -4,30 +4,64 @@
 /// deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the same equation.
 #pragma once
 
-#include <string>
+#include <string_view>
+#include <variant>
 
 #include "tmcmc/log_weights.hpp"
+#include "tmcmc/option.hpp"
 
 namespace tmcmc {
 
-/// Which number of the weights a step is chosen by.
-enum class CriterionKind { coefficient_of_variation, effective_sample_size };
+/// The coefficient of variation of the weights is `target` (Eq. 6).
+struct CoefficientOfVariation {
+  static constexpr std::string_view name = "coefficient-of-variation";
+
+  double target = 1.0;
+};
+
+/// The effective sample size of the weights is this fraction of the samples counted (Eq. 9).
+struct EffectiveSampleSize {
+  static constexpr std::string_view name = "effective-sample-size";
+
+  double fraction = 0.5;
+};
 
 /// A rule for the tempering step, as a value.
 struct Criterion {
-  CriterionKind kind = CriterionKind::coefficient_of_variation;  ///< Eq. 6 or Eq. 9
-  double target = 1.0;  ///< CoV (Eq. 6: 1), or N_eff as a fraction of the samples counted (Eq. 9: 1/2)
-  Deviation deviation = Deviation::population;  ///< for the coefficient of variation
-  Counted counted = Counted::feasible;          ///< the samples that the criterion is about
-
-  /// \throws std::invalid_argument unless target is positive, and at most 1 for the effective sample size.
-  void validate() const;
+  /// Eq. 6 or Eq. 9.
+  std::variant<CoefficientOfVariation, EffectiveSampleSize> rule;
+  /// Of the coefficient of variation, which the record of a stage holds under either rule.
+  Deviation deviation = Deviation::population;
+  /// The samples that the criterion is about.
+  Counted counted = Counted::feasible;
 };
 
 /// CoV = target (Eq. 6).
 [[nodiscard]] Criterion coefficient_of_variation_rule(double target = 1.0);
 /// N_eff = fraction of the samples counted (Eq. 9).
 [[nodiscard]] Criterion effective_sample_size_rule(double fraction = 0.5);
+
+/// Calls visit(OptionInfo, pointer to the value) for each option of the criterion.
+template <class AnyCriterion, class Visit>
+void visit_criterion_options(AnyCriterion& criterion, Visit&& visit) {
+  using enum OptionGroup;
+  auto& rule = criterion.rule;
+  visit({"criterion", computation, named(), "Which number of the weights the tempering step is chosen by"},
+        &rule);
+  visit({"cov_target", paper, positive_number(), "Criterion of TMCMC (Eq. 6)", "criterion",
+         CoefficientOfVariation::name},
+        member_of(std::get_if<CoefficientOfVariation>(&rule), &CoefficientOfVariation::target));
+  visit({"ess_fraction",
+         paper,
+         {.least = 0.0, .most = 1.0, .above_least = true},
+         "Criterion of TMCMC-II as a fraction of N (Eq. 9)",
+         "criterion",
+         EffectiveSampleSize::name},
+        member_of(std::get_if<EffectiveSampleSize>(&rule), &EffectiveSampleSize::fraction));
+  visit({"deviation", paper, named(), "Standard deviation in the CoV (Eq. 6): N or N-1"},
+        &criterion.deviation);
+  visit({"counted", paper, named(), "Samples that the criterion counts"}, &criterion.counted);
+}
 
 /// How the search for a step ended.
 enum class TemperingStatus {

@@ -60,25 +60,26 @@ refuse "--resampling: value 'best'" --resampling best
 refuse "--move: value 'waste'" --move waste
 refuse "--chains: value '0'" --chains 0
 refuse "--chains: value '5': expected only with --move waste-free" --chains 5
-refuse "--chains = 7: expected a divisor" --move waste-free --chains 7
+refuse "--chains: value '7': expected a divisor" --move waste-free --chains 7
 refuse "--scale-rule: value 'auto'" --scale-rule auto
-refuse "--scale-rule = target_acceptance: expected another rule" --scale-rule target-acceptance --move growing-chains
+refuse "--scale-rule: value 'target-acceptance': expected another rule" --scale-rule target-acceptance --move growing-chains
 refuse "--target-acceptance: value '1'" --target-acceptance 1
 refuse "--target-acceptance: value '0.5': expected only with" --target-acceptance 0.5
 refuse "--proposal-scale: value '0.5': expected only with" --proposal-scale 0.5 --scale-rule dimension
 refuse "--coordinates: value 'log'" --coordinates log
-refuse "--boundary = redraw" --boundary redraw --coordinates unbounded
-refuse "--boundary = redraw" --boundary redraw --random-subsets yes
+refuse "--coordinates: value 'unbounded': expected only with --boundary reject" --boundary redraw --coordinates unbounded
+refuse "--random-subsets: value 'yes': expected only with --boundary reject" --boundary redraw --random-subsets yes
 refuse "--random-subsets: value 'maybe'" --random-subsets maybe
-refuse "--cross-fit = true" --cross-fit yes --move growing-chains
+refuse "--cross-fit: value 'yes': expected no with growing chains" --cross-fit yes --move growing-chains
 refuse "--independent-fraction: value '1.5'" --independent-fraction 1.5
 refuse "--mixing-correlation: value '1'" --mixing-correlation 1
-refuse "--mixing-correlation = 0.5" --mixing-correlation 0.5 --move growing-chains
+refuse "--mixing-correlation: value '0.5': expected only with --move resample-move" --mixing-correlation 0.5 --move growing-chains
 refuse "--max-move-steps: value '9': expected only with" --max-move-steps 9
-refuse "--max-move-steps = 2: expected at least --move-steps" --mixing-correlation 0.5 --max-move-steps 2
-refuse "--evaluation-budget: value '0'" --evaluation-budget 0
-refuse "--evaluation-budget = 200: expected more than --samples" --evaluation-budget 200
+refuse "--max-move-steps: value '2': expected at least the least number of steps, 3" --mixing-correlation 0.5 --max-move-steps 2
+refuse "--evaluation-budget: value '-1'" --evaluation-budget=-1
+refuse "--move-steps: value '2': expected only with --move resample-move" --move waste-free --chains 20 --move-steps 2
+refuse "--evaluation-budget: value '200': expected more than the number of samples, 200" --evaluation-budget 200
 refuse "--sampler: value 'best'" --sampler best
-refuse "--evaluation-budget = 400: expected at least 500" --sampler recommended --evaluation-budget 400
+refuse "--evaluation-budget: value '400': expected at least 500" --sampler recommended --evaluation-budget 400
 expect_error 1 'evaluation_budget' $small --evaluation-budget 900 --output reference.csv
 finish

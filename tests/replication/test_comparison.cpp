@@ -77,7 +77,7 @@ TEST_CASE("each reading is named once and changes what it says", "[comparison]")
   for (const auto& v : variants) {
     CHECK(v.reading.sampler.samples == 123);
     names.insert(v.name);
-    if (v.name == "5 steps a move") CHECK(v.reading.sampler.move_steps == 5);
+    if (v.name == "5 steps a move") CHECK(std::get<tmcmc::ResampleMove>(v.reading.sampler.move).steps == 5);
     if (v.name == "exact limit") CHECK(v.reading.physics.limit != base.physics.limit);
     if (v.name == "omega_n from 0.01 Hz") CHECK_FALSE(v.reading.natural_frequency_lower_hz.has_value());
   }

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "errors/invalid_value.hpp"
+#include "names/names.hpp"
 #include "replication/friction_study.hpp"
+#include "tmcmc/option_table.hpp"
 
 namespace {
 
@@ -19,28 +21,15 @@ using Names = std::set<std::string>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Options that have a meaning in both and differ.
 void compare(const tmcmc::Options& a, const tmcmc::Options& b, Names& names) {
-  const auto note = [&](const char* name, bool equal) {
-    if (!equal) {
-      names.insert(name);
+  for (const auto& option : tmcmc::option_table()) {
+    const auto of_a = tmcmc::option_value(a, option.name);
+    const auto of_b = tmcmc::option_value(b, option.name);
+    if (of_a && of_b && *of_a != *of_b) {
+      names.insert(std::string(option.name));
     }
-  };
-  note("samples", a.samples == b.samples);
-  note("criterion.kind", a.criterion.kind == b.criterion.kind);
-  note("criterion.target", a.criterion.target == b.criterion.target);
-  note("criterion.deviation", a.criterion.deviation == b.criterion.deviation);
-  note("criterion.counted", a.criterion.counted == b.criterion.counted);
-  note("move", a.move == b.move);
-  note("move_steps", a.move_steps == b.move_steps);
-  note("proposal_scale", a.proposal_scale == b.proposal_scale);
-  note("centre", a.centre == b.centre);
-  note("boundary", a.boundary == b.boundary);
-  note("max_redraws", a.max_redraws == b.max_redraws);
-  note("infeasible_level", a.infeasible_level == b.infeasible_level);
-  note("max_stages", a.max_stages == b.max_stages);
-  note("minimum_step", a.minimum_step == b.minimum_step);
-  note("threads", a.threads == b.threads);
-  note("batch_rows", a.batch_rows == b.batch_rows);
+  }
 }
 
 Names differences(const Reading& a, const Reading& b) {
@@ -64,14 +53,14 @@ Names differences(const Reading& a, const Reading& b) {
 TEST_CASE("the corrected reading is the defaults of the libraries, with a true zero", "[study][reading]") {
   Reading defaults;
   defaults.infeasible_log_likelihood = -infinity;
+  defaults.sampler.diagnose = false;
   const Reading corrected = reading(ReadingName::corrected);
   CHECK(differences(corrected, defaults).empty());
   CHECK(corrected.sampler.samples == 1000);
-  CHECK(corrected.sampler.move == tmcmc::MoveKind::resample_move);
-  CHECK(corrected.sampler.move_steps == 3);
-  CHECK(corrected.sampler.proposal_scale == 0.2);
+  CHECK(std::get<tmcmc::ResampleMove>(corrected.sampler.move).steps == 3);
+  CHECK(std::get<tmcmc::FixedScale>(corrected.sampler.scale_rule).scale == 0.2);
   CHECK(corrected.sampler.centre == tmcmc::Centre::weighted_mean);
-  CHECK(corrected.sampler.boundary == tmcmc::Boundary::reject);
+  CHECK(std::holds_alternative<tmcmc::MetropolisProposal>(corrected.sampler.proposal));
   CHECK(corrected.sampler.criterion.deviation == tmcmc::Deviation::population);
   CHECK(corrected.sampler.criterion.counted == tmcmc::Counted::feasible);
   CHECK(corrected.physics.limit == friction::LimitRule::supremum);
@@ -84,11 +73,11 @@ TEST_CASE(
     "[study][reading]") {
   const Reading published = reading(ReadingName::as_published);
   CHECK(differences(published, reading(ReadingName::corrected)) ==
-        Names{"criterion.deviation", "criterion.counted", "boundary", "limit", "phase",
-              "infeasible_log_likelihood", "natural_frequency_lower_hz"});
+        Names{"deviation", "counted", "boundary", "limit", "phase", "infeasible_log_likelihood",
+              "natural_frequency_lower_hz"});
   CHECK(published.sampler.criterion.deviation == tmcmc::Deviation::sample);
   CHECK(published.sampler.criterion.counted == tmcmc::Counted::all);
-  CHECK(published.sampler.boundary == tmcmc::Boundary::redraw);
+  CHECK(std::holds_alternative<tmcmc::RedrawnWalk>(published.sampler.proposal));
   CHECK(published.physics.limit == friction::LimitRule::grid);
   CHECK(published.physics.phase == friction::PhaseRule::discrete_bin);
   CHECK(published.infeasible_log_likelihood == -1e10);
@@ -99,12 +88,10 @@ TEST_CASE(
     "the worded reading: all samples, growing chains of one step, plain mean, penalty, grid, discrete bin",
     "[study][reading]") {
   const Reading worded = reading(ReadingName::as_worded);
-  CHECK(differences(worded, reading(ReadingName::corrected)) == Names{"criterion.counted", "move",
-                                                                      "move_steps", "centre", "limit",
-                                                                      "phase", "infeasible_log_likelihood"});
+  CHECK(differences(worded, reading(ReadingName::corrected)) ==
+        Names{"counted", "move", "centre", "limit", "phase", "infeasible_log_likelihood"});
   CHECK(worded.sampler.criterion.counted == tmcmc::Counted::all);
-  CHECK(worded.sampler.move == tmcmc::MoveKind::growing_chains);
-  CHECK(worded.sampler.move_steps == 1);
+  CHECK(std::holds_alternative<tmcmc::GrowingChains>(worded.sampler.move));
   CHECK(worded.sampler.centre == tmcmc::Centre::plain_mean);
   CHECK(worded.physics.limit == friction::LimitRule::grid);
   CHECK(worded.physics.phase == friction::PhaseRule::discrete_bin);
@@ -113,7 +100,7 @@ TEST_CASE(
 }
 
 TEST_CASE("names of the readings and back", "[study][reading]") {
-  CHECK(replication::reading_names() == std::vector<std::string>{"as_published", "as_worded", "corrected"});
+  CHECK(names::all<ReadingName>() == std::vector<std::string>{"as_published", "as_worded", "corrected"});
   CHECK(replication::parse_reading("as_published") == ReadingName::as_published);
   CHECK(replication::parse_reading("as_worded") == ReadingName::as_worded);
   CHECK(replication::parse_reading("corrected") == ReadingName::corrected);
@@ -130,27 +117,25 @@ TEST_CASE("the paper's two samplers differ in the criterion alone", "[study][rea
     REQUIRE(arms.size() == 2);
     CHECK(arms[0].name == "TMCMC");
     CHECK(arms[1].name == "TMCMC-II");
-    CHECK(arms[0].options.criterion.kind == tmcmc::CriterionKind::coefficient_of_variation);
-    CHECK(arms[0].options.criterion.target == 1.0);
-    CHECK(arms[1].options.criterion.kind == tmcmc::CriterionKind::effective_sample_size);
-    CHECK(arms[1].options.criterion.target == 0.5);
+    CHECK(std::get<tmcmc::CoefficientOfVariation>(arms[0].options.criterion.rule).target == 1.0);
+    CHECK(std::get<tmcmc::EffectiveSampleSize>(arms[1].options.criterion.rule).fraction == 0.5);
     Names between;
     compare(arms[0].options, arms[1].options, between);
-    CHECK(between == Names{"criterion.kind", "criterion.target"});
+    CHECK(between == Names{"criterion"});
     for (const auto& arm : arms) {  // the rest is the reading's, and penalised draws count as infeasible
       CHECK_NOTHROW(arm.options.validate());
       CHECK(arm.options.infeasible_level == r.infeasible_log_likelihood);
       Names changed;
       compare(arm.options, r.sampler, changed);
-      for (const char* allowed : {"criterion.kind", "criterion.target", "infeasible_level"}) {
+      for (const char* allowed : {"criterion", "cov_target", "infeasible_level"}) {
         changed.erase(allowed);
       }
       CHECK(changed.empty());
     }
   }
   const auto arms = replication::paper_arms(reading(ReadingName::corrected), 0.7, 0.9);
-  CHECK(arms[0].options.criterion.target == 0.7);
-  CHECK(arms[1].options.criterion.target == 0.9);
+  CHECK(std::get<tmcmc::CoefficientOfVariation>(arms[0].options.criterion.rule).target == 0.7);
+  CHECK(std::get<tmcmc::EffectiveSampleSize>(arms[1].options.criterion.rule).fraction == 0.9);
 }
 
 TEST_CASE("a problem carries the reading's physics and penalty", "[study][reading]") {

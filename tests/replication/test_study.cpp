@@ -190,9 +190,9 @@ TEST_CASE("a small study of the published reading agrees with the exact posterio
 
 TEST_CASE("better moves bring every run to the exact posterior", "[study]") {
   auto reading = small_reading(ReadingName::as_published, 400);
-  reading.sampler.boundary = tmcmc::Boundary::reject;
-  reading.sampler.proposal_scale = 1.19;
-  reading.sampler.move_steps = 15;
+  reading.sampler.proposal = tmcmc::MetropolisProposal{};
+  reading.sampler.scale_rule = tmcmc::FixedScale{1.19};
+  reading.sampler.move = tmcmc::ResampleMove{.steps = 15};
   const auto runs = run_arm(paper_problem(reading), paper_arms(reading)[0], 0, {.runs = 12, .seed = 2});
   const auto friction = mean_over_runs(runs, friction::friction_force);
   CHECK(friction.errors_from(exact_friction_force_n) < statistics::standard_errors);
@@ -212,8 +212,8 @@ TEST_CASE("moments and evidence on a small box agree with a quadrature by midpoi
   const Eigen::Vector4d lower(0.7, 2.9, 1.0, 0.003);
   const Eigen::Vector4d upper(1.3, 3.25, 10.0, 0.06);
   auto reading = small_reading(ReadingName::corrected, 400);
-  reading.sampler.proposal_scale = 1.19;
-  reading.sampler.move_steps = 40;
+  reading.sampler.scale_rule = tmcmc::FixedScale{1.19};
+  reading.sampler.move = tmcmc::ResampleMove{.steps = 40};
   const friction::Likelihood likelihood(test_data::table1(), reading.physics);
   constexpr int cells = 300;
   struct Quadrature {
@@ -290,7 +290,7 @@ TEST_CASE("a failing run is named by sampler and number", "[study]") {
 
   // Only the third run fails.
   arm = paper_arms(reading)[0];
-  const auto third = tmcmc::initial_state(problem, arm.options, {.seed = 1, .run = 2});
+  const auto third = tmcmc::init(problem, arm.options, {.seed = 1, .run = 2});
   const double marked = third.points(0, 0);
   const tmcmc::Problem breaks = {
       [&](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {

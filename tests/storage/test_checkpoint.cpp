@@ -33,7 +33,7 @@ using tmcmc::Progress;
 Options small(bool diagnose = true) {
   Options options;
   options.samples = 12;
-  options.proposal_scale = 0.8;
+  options.scale_rule = tmcmc::FixedScale{0.8};
   options.max_stages = 2;
   options.diagnose = diagnose;
   return options;
@@ -266,35 +266,36 @@ TEST_CASE("a checkpoint of other settings is refused with both values", "[storag
   CHECK(with([](auto& r) { r.key.seed = 6; }) ==
         "checkpoint was made with seed = 5, this run has 6: expected the same, or another file");
   const std::vector<std::pair<std::string, std::function<void(RunDescription&)>>> changes = {
-      {"criterion.kind = coefficient_of_variation, this run has effective_sample_size",
-       [](auto& r) { r.options.criterion.kind = tmcmc::CriterionKind::effective_sample_size; }},
-      {"criterion.target = 1, this run has 0.9", [](auto& r) { r.options.criterion.target = 0.9; }},
-      {"criterion.deviation = population, this run has sample",
+      {"criterion = coefficient-of-variation, this run has effective-sample-size",
+       [](auto& r) { r.options.criterion.rule = tmcmc::EffectiveSampleSize{}; }},
+      {"cov_target = 1, this run has 0.9",
+       [](auto& r) { r.options.criterion.rule = tmcmc::CoefficientOfVariation{0.9}; }},
+      {"deviation = population, this run has sample",
        [](auto& r) { r.options.criterion.deviation = tmcmc::Deviation::sample; }},
-      {"criterion.counted = feasible, this run has all",
+      {"counted = feasible, this run has all",
        [](auto& r) { r.options.criterion.counted = tmcmc::Counted::all; }},
       {"resampling = multinomial, this run has systematic",
        [](auto& r) { r.options.resampling = tmcmc::Resampling::systematic; }},
-      {"move = resample_move, this run has waste_free",
-       [](auto& r) { r.options.move = tmcmc::MoveKind::waste_free; }},
-      {"move_steps = 3, this run has 4", [](auto& r) { r.options.move_steps = 4; }},
-      {"mixing_correlation = 0, this run has 0.1", [](auto& r) { r.options.mixing_correlation = 0.1; }},
-      {"max_move_steps = 1000, this run has 9", [](auto& r) { r.options.max_move_steps = 9; }},
-      {"chains = 50, this run has 6", [](auto& r) { r.options.chains = 6; }},
-      {"scale_rule = fixed, this run has acceptance_linked",
-       [](auto& r) { r.options.scale_rule = tmcmc::ScaleRule::acceptance_linked; }},
-      {"proposal_scale = 0.8, this run has 0.2", [](auto& r) { r.options.proposal_scale = 0.2; }},
-      {"target_acceptance = 0.3, this run has 0.4", [](auto& r) { r.options.target_acceptance = 0.4; }},
-      {"centre = weighted_mean, this run has plain_mean",
+      {"move = resample-move, this run has waste-free",
+       [](auto& r) { r.options.move = tmcmc::WasteFree{6}; }},
+      {"move_steps = 3, this run has 4", [](auto& r) { r.options.move = tmcmc::ResampleMove{.steps = 4}; }},
+      {"mixing_correlation = 0, this run has 0.1",
+       [](auto& r) { r.options.move = tmcmc::ResampleMove{.mixing_correlation = 0.1}; }},
+      {"scale_rule = fixed, this run has acceptance-linked",
+       [](auto& r) { r.options.scale_rule = tmcmc::AcceptanceLinked{}; }},
+      {"proposal_scale = 0.8, this run has 0.2", [](auto& r) { r.options.scale_rule = tmcmc::FixedScale{}; }},
+      {"centre = weighted-mean, this run has plain-mean",
        [](auto& r) { r.options.centre = tmcmc::Centre::plain_mean; }},
       {"coordinates = natural, this run has unbounded",
-       [](auto& r) { r.options.coordinates = tmcmc::Coordinates::unbounded; }},
-      {"random_subsets = no, this run has yes", [](auto& r) { r.options.random_subsets = true; }},
-      {"independent_fraction = 0, this run has 0.5", [](auto& r) { r.options.independent_fraction = 0.5; }},
+       [](auto& r) {
+         r.options.proposal = tmcmc::MetropolisProposal{.coordinates = tmcmc::Coordinates::unbounded};
+       }},
+      {"random_subsets = no, this run has yes",
+       [](auto& r) { r.options.proposal = tmcmc::MetropolisProposal{.random_subsets = true}; }},
+      {"independent_fraction = 0, this run has 0.5",
+       [](auto& r) { r.options.proposal = tmcmc::MetropolisProposal{.independent_fraction = 0.5}; }},
       {"cross_fit = no, this run has yes", [](auto& r) { r.options.cross_fit = true; }},
-      {"boundary = reject, this run has redraw",
-       [](auto& r) { r.options.boundary = tmcmc::Boundary::redraw; }},
-      {"max_redraws = 100000, this run has 7", [](auto& r) { r.options.max_redraws = 7; }},
+      {"boundary = reject, this run has redraw", [](auto& r) { r.options.proposal = tmcmc::RedrawnWalk{}; }},
       {"infeasible_level = -inf, this run has -1000", [](auto& r) { r.options.infeasible_level = -1000.0; }},
       {"minimum_step = 1e-15, this run has 1e-10", [](auto& r) { r.options.minimum_step = 1e-10; }},
       {"evaluation_budget = 0, this run has 99", [](auto& r) { r.options.evaluation_budget = 99; }},
@@ -323,6 +324,39 @@ TEST_CASE("a checkpoint of other settings is refused with both values", "[storag
   CHECK_THAT(with([](auto& r) { r.options.max_stages = 1; }),
              Contains("expected at most options.max_stages = 1, not 2"));
   CHECK_THROWS_WITH(storage::settings({small(), {}, ridge().prior, "two\nlines"}), Contains("one line"));
+}
+
+TEST_CASE("so is one of another argument of a move, a scale rule, a proposal or a criterion",
+          "[storage][fault]") {
+  Options options = small();
+  options.criterion = tmcmc::effective_sample_size_rule(0.5);
+  options.move = tmcmc::WasteFree{6};
+  options.scale_rule = tmcmc::TargetAcceptance{0.3};
+  options.proposal = tmcmc::RedrawnWalk{.max_redraws = 1000};
+  const Written one(options);
+  options.move = tmcmc::ResampleMove{.mixing_correlation = 0.5, .max_steps = 20};
+  const Written two(options);
+  const auto check = [](const Written& written, auto change, const std::string& what) {
+    RunDescription run = written.run;
+    change(run.options);
+    CHECK_THAT(refusal(written.path, run), StartsWith("checkpoint was made with " + what));
+  };
+  check(
+      one, [](Options& o) { o.criterion = tmcmc::effective_sample_size_rule(0.25); },
+      "ess_fraction = 0.5, this run has 0.25");
+  check(
+      one, [](Options& o) { o.move = tmcmc::WasteFree{4}; }, "chains = 6, this run has 4");
+  check(
+      one, [](Options& o) { o.scale_rule = tmcmc::TargetAcceptance{0.4}; },
+      "target_acceptance = 0.3, this run has 0.4");
+  check(
+      one, [](Options& o) { o.proposal = tmcmc::RedrawnWalk{7}; }, "max_redraws = 1000, this run has 7");
+  check(
+      two, [](Options& o) { std::get<tmcmc::ResampleMove>(o.move).max_steps = 9; },
+      "max_move_steps = 20, this run has 9");
+  check(
+      two, [](Options& o) { std::get<tmcmc::ResampleMove>(o.move).mixing_correlation = 0.0; },
+      "mixing_correlation = 0.5, this run has 0");
 }
 
 TEST_CASE("a file whose checksum fits is still read with care", "[storage][fault]") {

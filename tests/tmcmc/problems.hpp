@@ -31,7 +31,7 @@ inline tmcmc::Problem ridge() {
 inline tmcmc::Options few_samples() {
   tmcmc::Options options;
   options.samples = 203;
-  options.proposal_scale = 0.8;
+  options.scale_rule = tmcmc::FixedScale{0.8};
   return options;
 }
 

@@ -68,8 +68,8 @@ inline void check_normal_margin(const std::vector<tmcmc::Result>& results, tmcmc
 inline tmcmc::Options good_options(tmcmc::Index dimension) {
   tmcmc::Options options;
   options.samples = 500;
-  options.move_steps = 6;
-  options.proposal_scale = 2.0 / std::sqrt(static_cast<double>(dimension));
+  options.move = tmcmc::ResampleMove{.steps = 6};
+  options.scale_rule = tmcmc::FixedScale{2.0 / std::sqrt(static_cast<double>(dimension))};
   return options;
 }
 

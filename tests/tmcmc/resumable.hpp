@@ -13,41 +13,36 @@ namespace resumable {
 
 /// One of each: moves, resampling, scale rules, stages that go on until they have mixed, cross-fitting, budgets.
 inline std::vector<std::pair<std::string, tmcmc::Options>> every_kind() {
-  using tmcmc::MoveKind;
   using tmcmc::Resampling;
-  using tmcmc::ScaleRule;
   tmcmc::Options paper;
   paper.samples = 150;
-  paper.proposal_scale = 0.8;
+  paper.scale_rule = tmcmc::FixedScale{0.8};
   std::vector<std::pair<std::string, tmcmc::Options>> kinds = {{"paper", paper}};
   const auto add = [&](const std::string& name, auto change) {
     kinds.emplace_back(name, paper);
     change(kinds.back().second);
   };
-  add("redraw", [](auto& o) { o.boundary = tmcmc::Boundary::redraw; });
-  add("growing chains", [](auto& o) { o.move = MoveKind::growing_chains; });
+  add("redraw", [](auto& o) { o.proposal = tmcmc::RedrawnWalk{}; });
+  add("growing chains", [](auto& o) { o.move = tmcmc::GrowingChains{}; });
   add("residual", [](auto& o) { o.resampling = Resampling::residual; });
   add("stratified", [](auto& o) { o.resampling = Resampling::stratified; });
   add("systematic", [](auto& o) { o.resampling = Resampling::systematic; });
-  add("dimension", [](auto& o) { o.scale_rule = ScaleRule::dimension; });
-  add("target acceptance", [](auto& o) { o.scale_rule = ScaleRule::target_acceptance; });
-  add("acceptance-linked", [](auto& o) { o.scale_rule = ScaleRule::acceptance_linked; });
+  add("dimension", [](auto& o) { o.scale_rule = tmcmc::DimensionScale{}; });
+  add("target acceptance", [](auto& o) { o.scale_rule = tmcmc::TargetAcceptance{}; });
+  add("acceptance-linked", [](auto& o) { o.scale_rule = tmcmc::AcceptanceLinked{}; });
   add("effective sample size", [](auto& o) { o.criterion = tmcmc::effective_sample_size_rule(0.5); });
-  add("mixing", [](auto& o) { o.mixing_correlation = 0.3; });
+  add("mixing", [](auto& o) { o.move = tmcmc::ResampleMove{.mixing_correlation = 0.3}; });
   add("mixing, budget", [](auto& o) {
-    o.mixing_correlation = 0.3;
+    o.move = tmcmc::ResampleMove{.mixing_correlation = 0.3};
     o.evaluation_budget = 9000;
   });
   add("unbounded, subsets, independent, cross-fit", [](auto& o) {
-    o.coordinates = tmcmc::Coordinates::unbounded;
-    o.random_subsets = true;
-    o.independent_fraction = 0.5;
+    o.proposal = tmcmc::MetropolisProposal{tmcmc::Coordinates::unbounded, true, 0.5};
     o.cross_fit = true;
   });
   add("waste-free, adapted scale", [](auto& o) {
-    o.move = MoveKind::waste_free;
-    o.chains = 15;
-    o.scale_rule = ScaleRule::target_acceptance;
+    o.move = tmcmc::WasteFree{15};
+    o.scale_rule = tmcmc::TargetAcceptance{};
   });
   add("not diagnosed", [](auto& o) { o.diagnose = false; });
   add("budget that ends early", [](auto& o) { o.evaluation_budget = 1000; });

@@ -11,11 +11,9 @@ namespace {
 
 using replicates::gamma_normal;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
-using tmcmc::ScaleRule;
 using tmcmc::StopReason;
 
 }  // namespace
@@ -29,27 +27,26 @@ TEST_CASE("a budget of evaluations is kept, and the last stage uses it up", "[tm
       },
       gamma_normal().prior};
   Index completed = 0;
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
+  for (const bool waste_free : {false, true}) {
     for (const double mixing : {0.0, 0.4}) {
       for (const Index budget : {301, 500, 2000, 3333, 9999, 30000}) {
-        CAPTURE(static_cast<int>(move), mixing, budget);
+        CAPTURE(waste_free, mixing, budget);
         Options options;
-        options.move = move;
         options.samples = 300;
-        options.chains = 20;
-        options.coordinates = tmcmc::Coordinates::unbounded;
-        options.scale_rule = ScaleRule::dimension;
+        options.move = tmcmc::ResampleMove{.mixing_correlation = mixing};
+        if (waste_free) options.move = tmcmc::WasteFree{20};
+        options.proposal = tmcmc::MetropolisProposal{.coordinates = tmcmc::Coordinates::unbounded};
+        options.scale_rule = tmcmc::DimensionScale{};
         options.evaluation_budget = budget;
-        options.mixing_correlation = move == MoveKind::waste_free ? 0.0 : mixing;
         rows = 0;
         const Result result = tmcmc::run(counting, options, {.seed = 54});
         CHECK(result.final.evaluations == rows);
         CHECK(rows <= budget);
         if (result.stop == StopReason::completed) {
           ++completed;
-          CHECK(budget - rows < (move == MoveKind::waste_free ? 20 : 300));
+          CHECK(budget - rows < (waste_free ? 20 : 300));
           CHECK(result.final.points.rows() ==
-                (move == MoveKind::waste_free ? 20 * (result.stages.back().move_steps + 1) : 300));
+                (waste_free ? 20 * (result.stages.back().move_steps + 1) : 300));
         } else {
           CHECK(result.stop == StopReason::budget);
           CHECK(result.final.beta < 1.0);
@@ -57,7 +54,7 @@ TEST_CASE("a budget of evaluations is kept, and the last stage uses it up", "[tm
         }
         CHECK((result.stop == StopReason::completed || budget < 10000));
         // Waste-free shortens its chains until one step is left.
-        CHECK((result.stop == StopReason::budget || budget > (move == MoveKind::waste_free ? 301 : 1000)));
+        CHECK((result.stop == StopReason::budget || budget > (waste_free ? 301 : 1000)));
       }
     }
   }
@@ -68,7 +65,7 @@ TEST_CASE("a last stage without a step to spend does not take place", "[tmcmc][b
   const Problem flat = {problems::by_rows([](const auto&) { return 0.0; }), gamma_normal().prior};
   Options options;
   options.samples = 300;
-  options.proposal_scale = 0.01;
+  options.scale_rule = tmcmc::FixedScale{0.01};
   options.evaluation_budget = 599;
   const Result none = tmcmc::run(flat, options, {.seed = 58});
   CHECK(none.stop == StopReason::budget);
@@ -136,7 +133,7 @@ TEST_CASE("populations under a budget are no larger than samples, and shrink whe
   CHECK(sizes.front() == options.samples);
   for (std::size_t i = 1; i + 1 < sizes.size(); ++i) {
     CHECK(sizes[i] <= options.samples);
-    CHECK(sizes[i] % options.chains == 0);
+    CHECK(sizes[i] % std::get<tmcmc::WasteFree>(options.move).chains == 0);
   }
   CHECK(*std::min_element(sizes.begin() + 1, sizes.end() - 1) < options.samples);
 }

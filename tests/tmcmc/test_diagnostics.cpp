@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "tmcmc/detail/population_move.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/replicates.hpp"
 
@@ -21,7 +22,6 @@ using statistics::standard_errors;
 using tmcmc::effective_sample_sizes;
 using tmcmc::Genealogy;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Population;
 using tmcmc::Problem;
@@ -121,15 +121,14 @@ TEST_CASE("relatives count together, back to the stage that still has enough fam
 }
 
 TEST_CASE("effective sample sizes of runs agree with the spread of their means", "[tmcmc][diagnostics]") {
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
+  for (const bool waste_free : {false, true}) {
     for (const Index steps : {4, 16}) {  // poor and good mixing
-      CAPTURE(static_cast<int>(move), steps);
+      CAPTURE(waste_free, steps);
       Options options;
-      options.samples = move == MoveKind::waste_free ? 100 * (steps + 1) : 400;
-      options.move = move;
-      options.move_steps = steps;
-      options.chains = 100;
-      options.proposal_scale = 1.0;
+      options.samples = waste_free ? 100 * (steps + 1) : 400;
+      options.move = tmcmc::ResampleMove{.steps = steps};
+      if (waste_free) options.move = tmcmc::WasteFree{100};
+      options.scale_rule = tmcmc::FixedScale{1.0};
       const auto results = replicate(gamma_normal(), options, 43, 100);
       const double sd[] = {std::sqrt(3.0) / 2.0, std::sqrt(0.75 + 0.36)};
       for (Index j = 0; j < 2; ++j) {
@@ -171,8 +170,8 @@ TEST_CASE("a population that has collapsed is told so", "[tmcmc][diagnostics]") 
   // Chains that hardly move: what is left are copies of the few draws from the prior nearest to the posterior.
   Options options;
   options.samples = 500;
-  options.move_steps = 3;
-  options.proposal_scale = 1e-3;
+  options.move = tmcmc::ResampleMove{.steps = 3};
+  options.scale_rule = tmcmc::FixedScale{1e-3};
   for (const Result& result :
        replicate(replicates::problem_of([](const auto& x) { return -5000.0 * x.squaredNorm(); },
                                         Eigen::Vector4d::Constant(-1.0), Eigen::Vector4d::Constant(1.0)),
@@ -210,13 +209,13 @@ TEST_CASE("every kind of warning has its cause, and says what it found", "[tmcmc
   }
   SECTION("few ancestors") {
     Options options = good;
-    options.criterion.target = 15.0;  // CoV: N_eff = N / 226
+    options.criterion = tmcmc::coefficient_of_variation_rule(15.0);  // CoV: N_eff = N / 226
     const Result result = tmcmc::run(gamma_normal(), options, {.seed = 46});
     CHECK_THAT(message(result, WarningKind::few_ancestors), Contains("of stage 1") && Contains("below 25"));
   }
   SECTION("low acceptance") {
     Options options = good;
-    options.proposal_scale = 30.0;
+    options.scale_rule = tmcmc::FixedScale{30.0};
     const Result result = tmcmc::run(gamma_normal(), options, {.seed = 46});
     CHECK_THAT(message(result, WarningKind::low_acceptance), Contains("acceptance rate") && Contains("0.05"));
   }
@@ -239,8 +238,7 @@ TEST_CASE("every kind of warning has its cause, and says what it found", "[tmcmc
   }
   SECTION("uncertain evidence") {
     Options options = good;
-    options.move = MoveKind::waste_free;
-    options.chains = 1;  // no second chain that it could be measured by
+    options.move = tmcmc::WasteFree{1};  // no second chain that it could be measured by
     const Result result = tmcmc::run(gamma_normal(), options, {.seed = 46});
     CHECK_THAT(message(result, WarningKind::uncertain_evidence),
                Contains("log-evidence") && Contains("above 1"));

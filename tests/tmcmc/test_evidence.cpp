@@ -23,7 +23,6 @@ using tmcmc::BoxPrior;
 using tmcmc::BridgeEvidence;
 using tmcmc::Coordinates;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
@@ -66,13 +65,14 @@ double narrow_gaussian_log_evidence(Index d) {
   return value;
 }
 
-Options with_moves(MoveKind move) {
+const tmcmc::Move resample_move = tmcmc::ResampleMove{.steps = 8};
+const tmcmc::Move waste_free = tmcmc::WasteFree{40};
+
+Options with_moves(const tmcmc::Move& move) {
   Options options;
-  options.samples = move == MoveKind::waste_free ? 1600 : 400;  // at no higher cost
+  options.samples = std::holds_alternative<tmcmc::WasteFree>(move) ? 1600 : 400;  // at no higher cost
   options.move = move;
-  options.move_steps = 8;
-  options.chains = 40;
-  options.scale_rule = tmcmc::ScaleRule::dimension;
+  options.scale_rule = tmcmc::DimensionScale{};
   options.resampling = tmcmc::Resampling::systematic;
   return options;
 }
@@ -220,8 +220,8 @@ TEST_CASE("groups: their effective number and the variance of a sum", "[tmcmc][e
 
 TEST_CASE("evidence and its standard error from a single run, over many runs", "[tmcmc][evidence]") {
   for (const Index d : {2, 6}) {
-    for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
-      CAPTURE(d, static_cast<int>(move));
+    for (const tmcmc::Move& move : {resample_move, waste_free}) {
+      CAPTURE(d, move.index());
       const auto results = replicate(narrow_gaussian(d), with_moves(move), 33, 100);
       std::vector<double> errors;
       std::vector<double> own;
@@ -256,18 +256,17 @@ TEST_CASE(
         Eigen::Vector2d(-2.0, -5.0), Eigen::Vector2d(7.0, 5.0));
   };
   std::vector<Options> all;
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains, MoveKind::waste_free}) {
+  for (const tmcmc::Move& move : {resample_move, tmcmc::Move(tmcmc::GrowingChains{}), waste_free}) {
     for (const Coordinates coordinates : {Coordinates::natural, Coordinates::unbounded}) {
       Options options = with_moves(move);
-      options.coordinates = coordinates;
-      options.independent_fraction = coordinates == Coordinates::unbounded ? 0.5 : 0.0;
-      options.random_subsets = coordinates == Coordinates::unbounded;
+      const bool unbounded = coordinates == Coordinates::unbounded;
+      options.proposal = tmcmc::MetropolisProposal{coordinates, unbounded, unbounded ? 0.5 : 0.0};
       all.push_back(options);
     }
   }
   all.push_back(tmcmc::recommended_options(5000));
   for (const Options& options : all) {
-    CAPTURE(static_cast<int>(options.move), static_cast<int>(options.coordinates), options.samples);
+    CAPTURE(options.move.index(), options.proposal.index(), options.samples);
     const Result reference = tmcmc::run(shifted(0.0), options, {.seed = 34});
     CHECK(reference.stages.front().feasible < options.samples * 3 / 4);
     for (const double constant : {1000.0, -65536.0, 1e6, 1e9}) {
@@ -307,8 +306,8 @@ TEST_CASE("excluded points enter both evidences by the fraction of the box", "[t
   const auto half = problem_of([](const auto& x) { return x[0] < 0.5 ? -infinity : -9.0 * x[1]; },
                                Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones());
   const double truth = std::log(0.5 * -std::expm1(-9.0) / 9.0);
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
-    CAPTURE(static_cast<int>(move));
+  for (const tmcmc::Move& move : {resample_move, waste_free}) {
+    CAPTURE(move.index());
     const auto results = replicate(half, with_moves(move), 35, 60);
     const Estimate bridge = over_runs(results, [](const Result& r) { return r.evidence.log_evidence; });
     const Estimate weights = over_runs(results, [](const Result& r) { return r.final.log_evidence; });

@@ -16,16 +16,18 @@ using Catch::Matchers::WithinRel;
 using problems::by_rows;
 using replicates::gamma_normal;
 using statistics::standard_errors;
+using tmcmc::FixedScale;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Population;
 using tmcmc::Problem;
+using tmcmc::ResampleMove;
 using tmcmc::Result;
-using tmcmc::ScaleRule;
 using tmcmc::StageRecord;
 using tmcmc::State;
+using tmcmc::TargetAcceptance;
 using tmcmc::Walkers;
+using tmcmc::WasteFree;
 using tmcmc::detail::MetropolisKernel;
 using tmcmc::detail::StageKernels;
 using tmcmc::detail::StageMoves;
@@ -56,7 +58,7 @@ struct Stage {
   }
 };
 
-Options with(MoveKind move) {
+Options with(const tmcmc::Move& move) {
   Options options;
   options.move = move;
   return options;
@@ -74,7 +76,7 @@ TEST_CASE("waste-free keeps every state of each chain, the start included, chain
   constexpr Index steps = 6;
   Stage stage(chains, 0.5);
   const Population starts = stage.walkers.points;
-  const StageMoves moves = stage.move(with(MoveKind::waste_free), steps, steps);
+  const StageMoves moves = stage.move(with(WasteFree{}), steps, steps);
   CHECK(moves.steps == steps);
   CHECK(moves.counts.evaluations == chains * steps);
   REQUIRE(stage.walkers.points.rows() == chains * (steps + 1));
@@ -83,7 +85,7 @@ TEST_CASE("waste-free keeps every state of each chain, the start included, chain
   for (Index k = 1; k <= steps; ++k) {
     CAPTURE(k);
     Stage shorter(chains, 0.5);
-    CHECK(shorter.move(with(MoveKind::resample_move), k, k).steps == k);
+    CHECK(shorter.move(with(ResampleMove{}), k, k).steps == k);
     CHECK((stage.walkers.points.middleRows(k * chains, chains) == shorter.walkers.points));
     CHECK((stage.walkers.log_likelihood.segment(k * chains, chains) == shorter.walkers.log_likelihood));
   }
@@ -91,8 +93,7 @@ TEST_CASE("waste-free keeps every state of each chain, the start included, chain
 
 TEST_CASE("a stage of resample-move ends when its chains have mixed, within its limits",
           "[tmcmc][stage_moves]") {
-  Options options = with(MoveKind::resample_move);
-  options.mixing_correlation = 0.3;
+  Options options = with(ResampleMove{.mixing_correlation = 0.3});
   Stage slow(2000, 0.3);
   const Population starts = slow.walkers.points;
   const Index steps = slow.move(options, 3, 1000).steps;
@@ -104,7 +105,7 @@ TEST_CASE("a stage of resample-move ends when its chains have mixed, within its 
   CHECK(tmcmc::detail::largest_correlation(starts, shorter.walkers.points) > 0.3);
   CHECK(Stage(2000, 0.3).move(options, 3, steps - 1).steps == steps - 1);
   CHECK(Stage(2000, 0.3).move(options, steps + 5, 1000).steps == steps + 5);
-  options.mixing_correlation = 0.99;
+  options.move = ResampleMove{.mixing_correlation = 0.99};
   CHECK(Stage(2000, 2.4).move(options, 1, 1000).steps == 1);
 }
 
@@ -123,25 +124,24 @@ TEST_CASE("the scale adapts until its random walks are accepted at the target ra
   for (const double target : {0.2, 0.44, 0.7}) {
     for (const double independent : {0.0, 0.5}) {  // independent proposals say nothing of the scale
       CAPTURE(target, independent);
-      Options options = with(MoveKind::resample_move);
-      options.scale_rule = ScaleRule::target_acceptance;
-      options.target_acceptance = target;
+      Options options = with(ResampleMove{});
+      options.scale_rule = TargetAcceptance{target};
       Stage stage(4000, 10.0);
       stage.kernel.independent_fraction = independent;
       stage.kernel.centre = Eigen::VectorXd::Zero(1);
       stage.move(options, 150, 150);
-      options.scale_rule = ScaleRule::fixed;
+      options.scale_rule = FixedScale{};
       const auto counts = stage.move(options, 20, 20).counts;
       const double reached = static_cast<double>(counts.accepted_walks) / static_cast<double>(counts.walks);
       CHECK_THAT(reached, WithinAbs(target, 0.02));
       CHECK((independent == 0.0 || rate(counts) > target + 0.1));
     }
   }
-  Options fixed = with(MoveKind::waste_free);
+  Options fixed = with(WasteFree{});
   Stage stage(100, 10.0);
   stage.move(fixed, 10, 10);
   CHECK(stage.kernel.scale == 10.0);
-  fixed.scale_rule = ScaleRule::target_acceptance;
+  fixed.scale_rule = TargetAcceptance{};
   stage.move(fixed, 10, 10);
   CHECK(stage.kernel.scale < 10.0);
 }
@@ -151,27 +151,23 @@ TEST_CASE("cross-fitting: the proposals of each half are shaped by the other hal
   const Problem flat = {
       by_rows([](const auto&) { return 0.0; }),
       tmcmc::BoxPrior(Eigen::VectorXd::Constant(1, -50.0), Eigen::VectorXd::Constant(1, 50.0))};
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
-    CAPTURE(static_cast<int>(move));
-    Options options = with(move);
+  for (const bool waste_free : {false, true}) {
+    CAPTURE(waste_free);
+    Options options = with(ResampleMove{.steps = 1});
+    if (waste_free) options.move = WasteFree{1000};
     options.samples = 2000;
-    options.chains = 1000;
-    options.move_steps = 1;
     options.cross_fit = true;
-    State from = tmcmc::initial_state(flat, options, {.seed = 56});
+    State from = tmcmc::init(flat, options, {.seed = 56});
     statistics::Uniforms uniform(56);
     for (Index i = 0; i < 2000; ++i) {
       from.points(i, 0) = (i % 2 == 0 ? 1.0 : 0.01) * uniform.normal();
     }
-    State to;
-    tmcmc::Workspace work(flat, options, {.seed = 56});
-    const auto transition = tmcmc::fixed_schedule({1.0})(from);
-    static_cast<void>(tmcmc::advance(flat, options, {.seed = 56}, transition, from, to, work));
+    const State to = tmcmc::step(flat, options, {.seed = 56}, tmcmc::fixed_schedule({1.0})(from), from).state;
     const Index chains = to.genealogy.chains;
     std::vector<double> steps[2];
     for (Index c = 0; c < chains; ++c) {
-      const Index row = work.ancestors[static_cast<std::size_t>(c)];
-      const Index after = move == MoveKind::waste_free ? c + chains : c;
+      const Index row = to.genealogy.ancestors.back()[static_cast<std::size_t>(c)];
+      const Index after = waste_free ? c + chains : c;
       steps[row % 2].push_back(to.points(after, 0) - from.points(row, 0));
     }
     // About 500 steps or more from each half: standard deviations to 3.2 %, as of the half they were fitted to.
@@ -185,7 +181,7 @@ TEST_CASE("cross-fitting: the proposals of each half are shaped by the other hal
 TEST_CASE("the rules for the scale over the stages of a run", "[tmcmc][stage_moves]") {
   Options options;
   options.samples = 2000;
-  options.scale_rule = ScaleRule::dimension;
+  options.scale_rule = tmcmc::DimensionScale{};
   const auto scales = [&] {
     std::vector<StageRecord> records = tmcmc::run(gamma_normal(), options, {.seed = 52}).stages;
     REQUIRE(records.size() > 3);
@@ -197,30 +193,29 @@ TEST_CASE("the rules for the scale over the stages of a run", "[tmcmc][stage_mov
     CHECK(record.acceptance_rate < 0.5);
   }
   Options same = options;  // 2.38 / sqrt(2) as a fixed scale proposes the same but for rounding
-  same.scale_rule = ScaleRule::fixed;
-  same.proposal_scale = 2.38 / std::sqrt(2.0);
+  same.scale_rule = FixedScale{2.38 / std::sqrt(2.0)};
   const Result a = tmcmc::run(gamma_normal(), options, {.seed = 52});
   const Result b = tmcmc::run(gamma_normal(), same, {.seed = 52});
   CHECK_THAT(a.stages.front().acceptance_rate, WithinAbs(b.stages.front().acceptance_rate, 1e-3));
 
-  options.scale_rule = ScaleRule::acceptance_linked;
+  options.scale_rule = tmcmc::AcceptanceLinked{};
   double expected = 1.0;
   for (const StageRecord& record : scales()) {
     CHECK_THAT(record.proposal_scale, WithinRel(expected, 1e-14));
     expected = 1.0 / 9.0 + 8.0 / 9.0 * record.acceptance_rate;
   }
-  options.scale_rule = ScaleRule::target_acceptance;
-  options.target_acceptance = 0.6;
+  options.scale_rule = TargetAcceptance{0.6};
   CHECK_THAT(scales().back().acceptance_rate, WithinAbs(0.6, 0.05));
 }
 
 TEST_CASE("waste-free in a run: N rows, M (N/M - 1) evaluations a stage", "[tmcmc][stage_moves]") {
-  Options options = with(MoveKind::waste_free);
+  Options options = with(WasteFree{});
   options.samples = 600;
-  options.chains = 30;
-  options.coordinates = tmcmc::Coordinates::unbounded;  // no proposal outside the box
-  options.scale_rule = ScaleRule::dimension;
-  Population before = tmcmc::initial_state(gamma_normal(), options, {.seed = 53}).points;
+  options.move = WasteFree{30};
+  options.proposal =
+      tmcmc::MetropolisProposal{.coordinates = tmcmc::Coordinates::unbounded};  // no proposal outside the box
+  options.scale_rule = tmcmc::DimensionScale{};
+  Population before = tmcmc::init(gamma_normal(), options, {.seed = 53}).points;
   Index founders = 600;
   const Result result =
       tmcmc::run(gamma_normal(), options, {.seed = 53}, [&](const tmcmc::Progress& progress) {
@@ -258,12 +253,12 @@ TEST_CASE("waste-free in a run: N rows, M (N/M - 1) evaluations a stage", "[tmcm
 TEST_CASE("every chain of waste-free gets its share of the next starts", "[tmcmc][stage_moves]") {
   // Equal weights, and a distance between starts (N / M = 60) that is a multiple of the number of chains.
   const Problem flat = {by_rows([](const auto&) { return 0.0; }), chains::unit_box(1)};
-  Options options = with(MoveKind::waste_free);
+  Options options = with(WasteFree{});
   options.samples = 600;
-  options.chains = 10;
+  options.move = WasteFree{10};
   options.resampling = tmcmc::Resampling::systematic;
   const Result result =
-      tmcmc::run(flat, options, {.seed = 57}, tmcmc::fixed_schedule({0.25, 0.5, 0.75, 1.0}));
+      tmcmc::run(flat, options, {.seed = 57}, {}, tmcmc::fixed_schedule({0.25, 0.5, 0.75, 1.0}));
   for (std::size_t stage = 1; stage < 4; ++stage) {
     std::vector<Index> expected(10);
     std::iota(expected.begin(), expected.end(), Index{0});

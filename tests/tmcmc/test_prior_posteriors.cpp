@@ -114,8 +114,8 @@ TEST_CASE("Normal prior and Normal likelihood in 1, 2 and 10 dimensions", "[tmcm
   check_normal_normal(10, tmcmc::recommended_options(40000, 100));
   // The moves of the paper, in natural coordinates.
   tmcmc::Options options;
-  options.move_steps = 10;
-  options.proposal_scale = 1.2;
+  options.move = tmcmc::ResampleMove{.steps = 10};
+  options.scale_rule = tmcmc::FixedScale{1.2};
   check_normal_normal(2, options);
 }
 
@@ -227,11 +227,11 @@ TEST_CASE("with a flat likelihood the samples are the prior and the log-evidence
   all.push_back(Marginal::gamma(0.5, 2.0));
   tmcmc::Options natural;
   natural.samples = 500;
-  natural.move_steps = 20;
-  natural.proposal_scale = 2.0;
+  natural.move = tmcmc::ResampleMove{.steps = 20};
+  natural.scale_rule = tmcmc::FixedScale{2.0};
   for (const Marginal& marginal : all) {
     for (const auto& options : {tmcmc::recommended_options(3000), natural}) {
-      CAPTURE(marginal.text(), options.move_steps);
+      CAPTURE(marginal.text(), options.move.index());
       const Problem flat{by_rows([](const auto&) { return 0.0; }), Prior({{"x", "", marginal}})};
       std::vector<std::vector<double>> shares(4);
       for (std::uint32_t run = 0; run < runs; ++run) {
@@ -309,7 +309,7 @@ TEST_CASE("warnings call a parameter by its name", "[tmcmc][prior]") {
                         Prior({{"stiffness_2", "N/m", Marginal::normal(0.0, 1.0)}})};
   tmcmc::Options options;
   options.samples = 60;
-  options.move_steps = 1;
+  options.move = tmcmc::ResampleMove{.steps = 1};
   const auto result = tmcmc::run(problem, options, {.seed = 1});
   bool named = false;
   for (const auto& warning : result.diagnostics.warnings) {

@@ -40,13 +40,14 @@ TEST_CASE("a run resumed after any stage is the run, for every kind of option", 
 TEST_CASE("a resumed run with given steps takes those that are left", "[tmcmc][resume]") {
   const auto schedule = tmcmc::fixed_schedule({0.001, 0.01, 0.1, 0.4, 1.0});
   std::vector<Progress> progress;
-  const auto result = tmcmc::run(ridge(), few_samples(), {.seed = 5}, schedule,
-                                 [&](const Progress& p) { progress.push_back(p); });
+  const auto result = tmcmc::run(
+      ridge(), few_samples(), {.seed = 5}, [&](const Progress& p) { progress.push_back(p); }, schedule);
   REQUIRE(progress.size() == 6);
   for (const Progress& p : progress) {
     std::vector<tmcmc::Index> seen;
-    check_same_bits(tmcmc::resume(ridge(), few_samples(), {.seed = 5}, p, schedule,
-                                  [&](const Progress& next) { seen.push_back(next.state.stage); }),
+    check_same_bits(tmcmc::resume(
+                        ridge(), few_samples(), {.seed = 5}, p,
+                        [&](const Progress& next) { seen.push_back(next.state.stage); }, schedule),
                     result);
     CHECK(seen.size() == 5 - p.stages.size());
     CHECK((seen.empty() || seen.front() == p.state.stage + 1));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "errors/invalid_value.hpp"
 #include "tmcmc/problems.hpp"
 #include "tmcmc/sampler.hpp"
 
@@ -19,13 +20,10 @@ using problems::by_rows;
 using problems::few_samples;
 using problems::ridge;
 using problems::run_ridge;
-using tmcmc::Boundary;
 using tmcmc::BoxPrior;
 using tmcmc::Counted;
-using tmcmc::CriterionKind;
 using tmcmc::fixed_schedule;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
@@ -42,16 +40,15 @@ constexpr double rounding = 1e-12;
 }  // namespace
 
 TEST_CASE("the records of the stages are consistent", "[tmcmc][sampler]") {
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
-    for (const Boundary boundary : {Boundary::reject, Boundary::redraw}) {
-      for (const CriterionKind kind :
-           {CriterionKind::coefficient_of_variation, CriterionKind::effective_sample_size}) {
-        CAPTURE(static_cast<int>(move), static_cast<int>(boundary), static_cast<int>(kind));
+  for (const tmcmc::Move& move : {tmcmc::Move(tmcmc::ResampleMove{}), tmcmc::Move(tmcmc::GrowingChains{})}) {
+    for (const bool redraw : {false, true}) {
+      for (const tmcmc::Criterion& criterion :
+           {tmcmc::coefficient_of_variation_rule(), tmcmc::effective_sample_size_rule()}) {
+        CAPTURE(move.index(), redraw, criterion.rule.index());
         Options options = few_samples();
         options.move = move;
-        options.boundary = boundary;
-        options.criterion.kind = kind;
-        options.criterion.target = kind == CriterionKind::effective_sample_size ? 0.5 : 1.0;
+        if (redraw) options.proposal = tmcmc::RedrawnWalk{};
+        options.criterion = criterion;
         const Result result = run_ridge(options);
         CHECK(result.stop == StopReason::completed);
         REQUIRE(result.stages.size() > 4);
@@ -82,10 +79,10 @@ TEST_CASE("the records of the stages are consistent", "[tmcmc][sampler]") {
           CHECK(record.transition_evaluations > 0);
           CHECK(record.transition_evaluations <= 25);
           const Index proposals =
-              options.samples * (move == MoveKind::growing_chains ? 1 : options.move_steps);
+              options.samples * (std::holds_alternative<tmcmc::GrowingChains>(move) ? 1 : 3);
           CHECK(record.evaluations <= proposals);
-          CHECK((boundary == Boundary::reject || record.evaluations == proposals));
-          CHECK((boundary == Boundary::redraw || record.redraws == 0));
+          CHECK((!redraw || record.evaluations == proposals));
+          CHECK((redraw || record.redraws == 0));
           beta = record.beta;
           log_evidence += record.log_evidence_increment;
           evaluations += record.evaluations;
@@ -116,7 +113,7 @@ TEST_CASE("the likelihood is evaluated as often as the records say", "[tmcmc][sa
         problem.log_likelihood(points, values);
       },
       problem.prior};
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
+  for (const tmcmc::Move& move : {tmcmc::Move(tmcmc::ResampleMove{}), tmcmc::Move(tmcmc::GrowingChains{})}) {
     rows = 0;
     Options options = few_samples();
     options.move = move;
@@ -155,23 +152,23 @@ TEST_CASE("the observer sees the draws from the prior and each stage once, with 
   CHECK((result.final.points == run_ridge(few_samples()).final.points));  // and it changes nothing
 }
 
-TEST_CASE("init and advance by hand make the run", "[tmcmc][sampler]") {
+TEST_CASE("init and step by hand make the run, and leave their arguments as they are", "[tmcmc][sampler]") {
   const Problem problem = ridge();
   const Options options = few_samples();
   const StreamKey key{.seed = 5};
-  tmcmc::Workspace work(problem, options, key);
-  State state = tmcmc::initial_state(problem, options, key);
+  State state = tmcmc::init(problem, options, key);
   CHECK(state.beta == 0.0);
   CHECK(state.log_evidence == 0.0);
   CHECK(state.evaluations == options.samples);
   CHECK((state.points == problem.prior.sample(options.samples, key)));
   while (state.beta < 1.0) {
-    State next;
-    tmcmc::advance(
-        problem, options, key,
-        tmcmc::choose_step(tmcmc::as_span(state.log_likelihood), 1.0 - state.beta, options.criterion), state,
-        next, work);
-    state = next;
+    const State from = state;
+    const auto tempering =
+        tmcmc::choose_step(tmcmc::as_span(state.log_likelihood), 1.0 - state.beta, options.criterion);
+    tmcmc::NextStage next = tmcmc::step(problem, options, key, tempering, state);
+    CHECK((state.points == from.points));
+    CHECK(next.record.beta == next.state.beta);
+    state = std::move(next.state);
   }
   const Result result = run_ridge(options);
   CHECK((state.points == result.final.points));
@@ -192,7 +189,7 @@ TEST_CASE("a fixed schedule has to ascend to 1", "[tmcmc][sampler]") {
                                                                            {not_a_number, 1.0},
                                                                            {0.5, not_a_number, 1.0},
                                                                            {not_a_number}}) {
-    CHECK_THROWS_AS(fixed_schedule(betas), std::invalid_argument);
+    CHECK_THROWS_AS(fixed_schedule(betas), errors::InvalidValue);
     CHECK_THROWS_WITH(fixed_schedule(betas), Contains("fixed_schedule"));
   }
 }
@@ -233,7 +230,7 @@ TEST_CASE("the minimum step ends a run whose steps are below it", "[tmcmc][sampl
   CHECK(none.stop == StopReason::step_too_small);
   CHECK(none.stages.empty());
   CHECK(none.final.beta == 0.0);
-  CHECK((none.final.points == tmcmc::initial_state(ridge(), options, {.seed = 5}).points));
+  CHECK((none.final.points == tmcmc::init(ridge(), options, {.seed = 5}).points));
 
   options = few_samples();
   const Result complete = run_ridge(options);
@@ -243,7 +240,7 @@ TEST_CASE("the minimum step ends a run whose steps are below it", "[tmcmc][sampl
   options.minimum_step = 0.99 * complete.stages[0].step;
   CHECK(run_ridge(options).stop == StopReason::completed);
   options.minimum_step = 0.999999;  // does not hold for a step that reaches 1
-  CHECK(tmcmc::run(ridge(), options, {.seed = 5}, fixed_schedule({1.0})).stop == StopReason::completed);
+  CHECK(tmcmc::run(ridge(), options, {.seed = 5}, {}, fixed_schedule({1.0})).stop == StopReason::completed);
 }
 
 TEST_CASE("steps of 1e-10 are no obstacle", "[tmcmc][sampler]") {
@@ -295,7 +292,7 @@ TEST_CASE("a likelihood of NaN or plus infinity ends the run, naming the point",
     CHECK_THROWS_WITH(tmcmc::run(at_once, few_samples(), {}), Contains(" at (0."));
     // In a gap that no prior draw hits but some proposal does.
     const auto initial =
-        tmcmc::initial_state(Problem{by_rows([](const auto&) { return 0.0; }), prior}, few_samples(), {});
+        tmcmc::init(Problem{by_rows([](const auto&) { return 0.0; }), prior}, few_samples(), {});
     std::vector<double> drawn(initial.points.col(0).begin(), initial.points.col(0).end());
     const Problem later = {by_rows([=](const auto& x) {
                              return std::find(drawn.begin(), drawn.end(), x[0]) == drawn.end() ? bad : -x[0];
@@ -358,23 +355,29 @@ TEST_CASE("options out of range are refused by name", "[tmcmc][sampler]") {
   const auto refused = [](auto change, const char* field) {
     Options options;
     change(options);
-    CHECK_THROWS_AS(options.validate(), std::invalid_argument);
+    CHECK_THROWS_AS(options.validate(), errors::InvalidValue);
     CHECK_THROWS_WITH(options.validate(), Contains(field));
-    CHECK_THROWS_AS(run_ridge(options), std::invalid_argument);
+    CHECK_THROWS_AS(run_ridge(options), errors::InvalidValue);
   };
   CHECK_NOTHROW(Options{}.validate());
   refused([](Options& o) { o.samples = 1; }, "options.samples = 1");
-  refused([](Options& o) { o.move_steps = 0; }, "options.move_steps = 0");
+  refused([](Options& o) { o.move = tmcmc::ResampleMove{.steps = 0}; }, "options.move_steps = 0");
   for (const double scale : {0.0, -0.2, infinity, not_a_number}) {
-    refused([=](Options& o) { o.proposal_scale = scale; }, "options.proposal_scale");
+    refused([=](Options& o) { o.scale_rule = tmcmc::FixedScale{scale}; }, "options.proposal_scale");
   }
-  refused([](Options& o) { o.max_redraws = 0; }, "options.max_redraws = 0");
+  refused([](Options& o) { o.proposal = tmcmc::RedrawnWalk{0}; }, "options.max_redraws = 0");
   refused([](Options& o) { o.max_stages = 0; }, "options.max_stages = 0");
   for (const double step : {-1e-9, 1.0, not_a_number}) {
     refused([=](Options& o) { o.minimum_step = step; }, "options.minimum_step");
   }
   refused([](Options& o) { o.threads = 0; }, "options.threads = 0");
   refused([](Options& o) { o.batch_rows = -1; }, "options.batch_rows = -1");
-  refused([](Options& o) { o.criterion.target = 0.0; }, "criterion.target");
-  refused([](Options& o) { o.criterion = tmcmc::effective_sample_size_rule(1.1); }, "criterion.target = 1.1");
+  for (const double target : {0.0, -1.0, infinity, not_a_number}) {
+    refused([=](Options& o) { o.criterion = tmcmc::coefficient_of_variation_rule(target); },
+            "options.cov_target = ");
+    refused([=](Options& o) { o.criterion = tmcmc::effective_sample_size_rule(target); },
+            "options.ess_fraction = ");
+  }
+  refused([](Options& o) { o.criterion = tmcmc::effective_sample_size_rule(1.1); },
+          "options.ess_fraction = 1.1: expected a number in (0, 1]");
 }

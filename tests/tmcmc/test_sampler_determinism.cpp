@@ -17,12 +17,9 @@ using problems::by_rows;
 using problems::few_samples;
 using problems::ridge;
 using problems::run_ridge;
-using tmcmc::Boundary;
 using tmcmc::BoxPrior;
-using tmcmc::CriterionKind;
 using tmcmc::fixed_schedule;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
@@ -62,15 +59,15 @@ void check_same_bits(const Result& a, const Result& b) {
 }  // namespace
 
 TEST_CASE("neither threads nor batches change a bit of a run", "[tmcmc][sampler]") {
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
-    for (const Boundary boundary : {Boundary::reject, Boundary::redraw}) {
+  for (const tmcmc::Move& move : {tmcmc::Move(tmcmc::ResampleMove{}), tmcmc::Move(tmcmc::GrowingChains{})}) {
+    for (const bool redraw : {false, true}) {
       Options options = few_samples();
       options.move = move;
-      options.boundary = boundary;
+      if (redraw) options.proposal = tmcmc::RedrawnWalk{};
       const Result reference = run_ridge(options);
       for (const int threads : {1, 2, 3}) {
         for (const Index batch_rows : {0, 1, 50, 1000}) {
-          CAPTURE(static_cast<int>(move), static_cast<int>(boundary), threads, batch_rows);
+          CAPTURE(move.index(), redraw, threads, batch_rows);
           options.threads = threads;
           options.batch_rows = batch_rows;
           check_same_bits(run_ridge(options), reference);
@@ -119,8 +116,8 @@ TEST_CASE("runs that differ in any field of their key differ", "[tmcmc][sampler]
     const Result other = run_ridge(options, key);
     CHECK((other.final.points.array() != reference.final.points.array()).all());
     CHECK(other.final.log_evidence != reference.final.log_evidence);
-    CHECK((tmcmc::initial_state(ridge(), options, key).points.array() !=
-           tmcmc::initial_state(ridge(), options, {.seed = 5}).points.array())
+    CHECK((tmcmc::init(ridge(), options, key).points.array() !=
+           tmcmc::init(ridge(), options, {.seed = 5}).points.array())
               .all());
   }
 }
@@ -132,30 +129,31 @@ TEST_CASE("no stage uses the random numbers of another", "[tmcmc][sampler]") {
                         BoxPrior(Eigen::VectorXd::Constant(1, -1.0), Eigen::VectorXd::Constant(1, 1.0))};
   Options options;
   options.samples = 50;
-  options.move_steps = 1;
-  options.proposal_scale = 1e-6;
-  State before = tmcmc::initial_state(flat, options, {.seed = 5});
+  options.move = tmcmc::ResampleMove{.steps = 1};
+  options.scale_rule = tmcmc::FixedScale{1e-6};
+  State before = tmcmc::init(flat, options, {.seed = 5});
   const std::vector<double> start(before.points.col(0).begin(), before.points.col(0).end());
   std::vector<std::vector<double>> displacements;
-  static_cast<void>(tmcmc::run(flat, options, {.seed = 5}, fixed_schedule({0.25, 0.5, 0.75, 1.0}),
-                               [&](const tmcmc::Progress& progress) {
-                                 if (progress.stages.empty()) {
-                                   return;
-                                 }
-                                 const State& state = progress.state;
-                                 CHECK(progress.stages.back().acceptance_rate > 0.9);
-                                 std::vector<double> moved;
-                                 for (const double x :
-                                      state.points.col(0)) {  // from the nearest earlier point
-                                   double nearest = 10.0;
-                                   for (const double y : before.points.col(0)) {
-                                     nearest = std::fabs(x - y) < std::fabs(nearest) ? x - y : nearest;
-                                   }
-                                   moved.push_back(nearest);
-                                 }
-                                 displacements.push_back(moved);
-                                 before = state;
-                               }));
+  static_cast<void>(tmcmc::run(
+      flat, options, {.seed = 5},
+      [&](const tmcmc::Progress& progress) {
+        if (progress.stages.empty()) {
+          return;
+        }
+        const State& state = progress.state;
+        CHECK(progress.stages.back().acceptance_rate > 0.9);
+        std::vector<double> moved;
+        for (const double x : state.points.col(0)) {  // from the nearest earlier point
+          double nearest = 10.0;
+          for (const double y : before.points.col(0)) {
+            nearest = std::fabs(x - y) < std::fabs(nearest) ? x - y : nearest;
+          }
+          moved.push_back(nearest);
+        }
+        displacements.push_back(moved);
+        before = state;
+      },
+      fixed_schedule({0.25, 0.5, 0.75, 1.0})));
   REQUIRE(displacements.size() == 4);
   for (std::size_t a = 0; a < 4; ++a) {
     for (std::size_t b = a + 1; b < 4; ++b) {
@@ -175,13 +173,12 @@ TEST_CASE("no stage uses the random numbers of another", "[tmcmc][sampler]") {
 
 TEST_CASE("a constant added to the log-likelihood changes no bit of the samples and moves the evidence by it",
           "[tmcmc][sampler]") {
-  for (const CriterionKind kind :
-       {CriterionKind::coefficient_of_variation, CriterionKind::effective_sample_size}) {
-    CAPTURE(static_cast<int>(kind));
+  for (const tmcmc::Criterion& criterion :
+       {tmcmc::coefficient_of_variation_rule(), tmcmc::effective_sample_size_rule()}) {
+    CAPTURE(criterion.rule.index());
     Options options = few_samples();
     options.samples = 1000;
-    options.criterion.kind = kind;
-    options.criterion.target = kind == CriterionKind::effective_sample_size ? 0.5 : 1.0;
+    options.criterion = criterion;
     const Result reference = tmcmc::run(ridge_on_a_grid(0.0), options, {.seed = 5});
     for (const double constant : {1000.0, -4096.0}) {
       CAPTURE(constant);
@@ -213,7 +210,7 @@ TEST_CASE("a constant that cannot be added exactly changes the run by rounding a
 }
 
 TEST_CASE("a fixed schedule with the temperatures of an adaptive run repeats it", "[tmcmc][sampler]") {
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
+  for (const tmcmc::Move& move : {tmcmc::Move(tmcmc::ResampleMove{}), tmcmc::Move(tmcmc::GrowingChains{})}) {
     Options options = few_samples();
     options.move = move;
     const Result adaptive = run_ridge(options);
@@ -221,7 +218,7 @@ TEST_CASE("a fixed schedule with the temperatures of an adaptive run repeats it"
     for (const StageRecord& record : adaptive.stages) {
       betas.push_back(record.beta);
     }
-    const Result fixed = tmcmc::run(ridge(), options, {.seed = 5}, fixed_schedule(betas));
+    const Result fixed = tmcmc::run(ridge(), options, {.seed = 5}, {}, fixed_schedule(betas));
     CHECK(fixed.stop == StopReason::completed);
     REQUIRE(fixed.stages.size() == adaptive.stages.size());
     for (std::size_t s = 0; s < betas.size(); ++s) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "errors/invalid_value.hpp"
+#include "names/names.hpp"
 #include "tmcmc/replicates.hpp"
 
 namespace {
@@ -20,14 +22,20 @@ using replicates::over_runs;
 using replicates::replicate;
 using statistics::Estimate;
 using statistics::standard_errors;
-using tmcmc::Boundary;
+using tmcmc::AcceptanceLinked;
 using tmcmc::Coordinates;
+using tmcmc::DimensionScale;
+using tmcmc::FixedScale;
+using tmcmc::GrowingChains;
 using tmcmc::Index;
-using tmcmc::MoveKind;
+using tmcmc::MetropolisProposal;
 using tmcmc::Options;
+using tmcmc::ResampleMove;
 using tmcmc::Resampling;
 using tmcmc::Result;
 using tmcmc::ScaleRule;
+using tmcmc::TargetAcceptance;
+using tmcmc::WasteFree;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -44,17 +52,16 @@ TEST_CASE("every resampling scheme samples an asymmetric, correlated posterior",
 }
 
 TEST_CASE("so does every scale rule, and a stage that goes on until it has mixed", "[tmcmc][sampler]") {
-  for (const ScaleRule rule :
-       {ScaleRule::dimension, ScaleRule::target_acceptance, ScaleRule::acceptance_linked}) {
-    CAPTURE(static_cast<int>(rule));
+  for (const ScaleRule& rule :
+       {ScaleRule(DimensionScale{}), ScaleRule(TargetAcceptance{}), ScaleRule(AcceptanceLinked{})}) {
+    CAPTURE(names::name_of(rule));
     Options options = good_options(2);
     options.scale_rule = rule;
     check_gamma_normal(replicate(gamma_normal(), options, 62), options.samples);
   }
   Options options = good_options(2);
-  options.proposal_scale = 0.4;
-  options.move_steps = 1;
-  options.mixing_correlation = 0.3;
+  options.scale_rule = tmcmc::FixedScale{0.4};
+  options.move = tmcmc::ResampleMove{.steps = 1, .mixing_correlation = 0.3};
   check_gamma_normal(replicate(gamma_normal(), options, 62), options.samples);
 }
 
@@ -65,13 +72,10 @@ TEST_CASE("so do waste-free chains, with proposals of every kind", "[tmcmc][samp
         CAPTURE(static_cast<int>(coordinates), subsets, independent);
         Options options;
         options.samples = 2000;
-        options.move = MoveKind::waste_free;
-        options.chains = 50;
+        options.move = WasteFree{50};
         options.resampling = Resampling::systematic;
-        options.scale_rule = ScaleRule::dimension;
-        options.coordinates = coordinates;
-        options.random_subsets = subsets;
-        options.independent_fraction = independent;
+        options.scale_rule = tmcmc::DimensionScale{};
+        options.proposal = MetropolisProposal{coordinates, subsets, independent};
         const auto results = replicate(gamma_normal(), options, 63);
         check_gamma_normal(results, 500);
         check(over_runs(results, [](const Result& r) { return r.evidence.log_evidence; }),
@@ -82,14 +86,14 @@ TEST_CASE("so do waste-free chains, with proposals of every kind", "[tmcmc][samp
 }
 
 TEST_CASE("so do cross-fitted proposals, whatever the kind of move", "[tmcmc][sampler]") {
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::waste_free}) {
-    CAPTURE(static_cast<int>(move));
+  for (const bool waste_free : {false, true}) {
+    CAPTURE(waste_free);
     Options options = good_options(2);
-    options.move = move;
-    options.samples = move == MoveKind::waste_free ? 2000 : 500;
+    if (waste_free) options.move = WasteFree{};
+    options.samples = waste_free ? 2000 : 500;
     options.cross_fit = true;
-    options.independent_fraction = 0.3;
-    options.scale_rule = ScaleRule::target_acceptance;
+    options.proposal = MetropolisProposal{.independent_fraction = 0.3};
+    options.scale_rule = TargetAcceptance{};
     check_gamma_normal(replicate(gamma_normal(), options, 67), 500);
   }
 }
@@ -109,12 +113,11 @@ TEST_CASE("independent proposals follow the population itself, whatever the scal
   const auto gaussian = replicates::problem_of(
       [](const auto& x) { return -0.5 * (x[0] * x[0] + (x[1] - x[0]) * (x[1] - x[0])); },
       Eigen::Vector2d::Constant(-20.0), Eigen::Vector2d::Constant(20.0));
-  for (const ScaleRule rule : {ScaleRule::fixed, ScaleRule::dimension}) {
+  for (const ScaleRule& rule : {ScaleRule(FixedScale{0.2}), ScaleRule(DimensionScale{})}) {
     Options options = good_options(2);
     options.samples = 2000;
-    options.proposal_scale = 0.2;
     options.scale_rule = rule;
-    options.independent_fraction = 1.0;
+    options.proposal = MetropolisProposal{.independent_fraction = 1.0};
     CHECK(tmcmc::run(gaussian, options, {.seed = 68}).stages.back().acceptance_rate > 0.85);
   }
 }
@@ -124,7 +127,7 @@ TEST_CASE("unbounded coordinates are right where the posterior lies at a bound",
   const auto problem = replicates::problem_of([](const auto& x) { return -40.0 * x[0]; },
                                               Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
   Options options = good_options(1);
-  options.coordinates = Coordinates::unbounded;
+  options.proposal = MetropolisProposal{.coordinates = Coordinates::unbounded};
   const auto results = replicate(problem, options, 65);
   check(replicates::mean_of(
             results, [](double x) { return x; }, 0),
@@ -137,9 +140,9 @@ TEST_CASE("unbounded coordinates are right where the posterior lies at a bound",
 }
 
 TEST_CASE("neither threads nor batches change a bit under the new options either", "[tmcmc][sampler]") {
-  for (const ScaleRule rule : {ScaleRule::dimension, ScaleRule::target_acceptance}) {
+  for (const ScaleRule& rule : {ScaleRule(DimensionScale{}), ScaleRule(TargetAcceptance{})}) {
     Options options = tmcmc::recommended_options(4000);
-    options.chains = 100;
+    options.move = WasteFree{100};
     options.samples = 300;
     options.scale_rule = rule;
     const Result reference = tmcmc::run(gamma_normal(), options, {.seed = 66});
@@ -163,79 +166,51 @@ TEST_CASE("new options out of range, and options that do not go together, are re
   const auto refused = [](auto change, const std::string& field, const std::string& expected) {
     Options options;
     change(options);
-    CHECK_THROWS_AS(options.validate(), std::invalid_argument);
+    CHECK_THROWS_AS(options.validate(), errors::InvalidValue);
     CHECK_THROWS_WITH(options.validate(), Contains("options." + field) && Contains("expected " + expected));
   };
-  refused([](Options& o) { o.max_move_steps = 0; }, "max_move_steps = 0", "at least 1");
+  refused([](Options& o) { o.move = ResampleMove{.mixing_correlation = 0.5, .max_steps = 0}; },
+          "max_move_steps = 0", "a whole number from 1 to");
   for (const double bad : {-0.1, 1.0, not_a_number}) {
-    refused([=](Options& o) { o.mixing_correlation = bad; }, "mixing_correlation = ", "a number in [0, 1)");
+    refused([=](Options& o) { o.move = ResampleMove{.mixing_correlation = bad}; },
+            "mixing_correlation = ", "a number in [0, 1)");
   }
-  refused([](Options& o) { o.mixing_correlation = 1.25; }, "mixing_correlation = 1.25", "a number");
-  refused(
-      [](Options& o) {
-        o.mixing_correlation = 0.5;
-        o.move_steps = 20;
-        o.max_move_steps = 10;
-      },
-      "max_move_steps = 10", "at least options.move_steps");
-  for (const MoveKind move : {MoveKind::growing_chains, MoveKind::waste_free}) {
-    refused(
-        [=](Options& o) {
-          o.mixing_correlation = 0.5;
-          o.move = move;
-        },
-        "mixing_correlation = 0.5", "0 unless move is resample_move");
-  }
+  refused([](Options& o) { o.move = ResampleMove{.mixing_correlation = 1.25}; }, "mixing_correlation = 1.25",
+          "a number");
+  refused([](Options& o) { o.move = ResampleMove{.steps = 20, .mixing_correlation = 0.5, .max_steps = 10}; },
+          "max_move_steps = 10", "at least the least number of steps, 20");
   for (const Index chains : {0, -5, 3, 1000, 2000}) {
-    refused(
-        [=](Options& o) {
-          o.move = MoveKind::waste_free;
-          o.chains = chains;
-        },
-        "chains = " + std::to_string(chains), "a divisor of the number of samples");
-    Options options;
-    options.chains = chains;
-    CHECK_NOTHROW(options.validate());  // not used
+    refused([=](Options& o) { o.move = WasteFree{chains}; }, "chains = " + std::to_string(chains),
+            chains < 1 ? "a whole number from 1" : "a divisor of the number of samples");
   }
   for (const double bad : {0.0, 1.0, -0.3, not_a_number}) {
-    refused([=](Options& o) { o.target_acceptance = bad; },
-            "target_acceptance = ", "a number between 0 and 1");
+    refused([=](Options& o) { o.scale_rule = TargetAcceptance{bad}; },
+            "target_acceptance = ", "a number in (0, 1)");
   }
   refused(
       [](Options& o) {
-        o.scale_rule = ScaleRule::target_acceptance;
-        o.move = MoveKind::growing_chains;
+        o.scale_rule = TargetAcceptance{};
+        o.move = GrowingChains{};
       },
-      "scale_rule = target_acceptance", "another rule with growing chains");
+      "scale_rule = target-acceptance", "another rule with growing chains");
   for (const double bad : {-0.01, 1.01, infinity, not_a_number}) {
-    refused([=](Options& o) { o.independent_fraction = bad; },
+    refused([=](Options& o) { o.proposal = MetropolisProposal{.independent_fraction = bad}; },
             "independent_fraction = ", "a number in [0, 1]");
   }
-  const auto redrawn = [&](auto change) {
-    refused(
-        [=](Options& o) {
-          o.boundary = Boundary::redraw;
-          change(o);
-        },
-        "boundary = redraw", "reject");
-  };
   refused(
       [](Options& o) {
         o.cross_fit = true;
-        o.move = MoveKind::growing_chains;
+        o.move = GrowingChains{};
       },
-      "cross_fit = true", "false with growing chains");
-  redrawn([](Options& o) { o.coordinates = Coordinates::unbounded; });
-  redrawn([](Options& o) { o.random_subsets = true; });
-  redrawn([](Options& o) { o.independent_fraction = 0.1; });
+      "cross_fit = yes", "no with growing chains");
   refused([](Options& o) { o.infeasible_level = not_a_number; }, "infeasible_level = nan", "a number");
-  refused([](Options& o) { o.evaluation_budget = -1; }, "evaluation_budget = -1", "a number of evaluations");
+  refused([](Options& o) { o.evaluation_budget = -1; }, "evaluation_budget = -1", "a whole number from 0 to");
   refused([](Options& o) { o.evaluation_budget = 1000; }, "evaluation_budget = 1000",
-          "more than options.samples");
+          "more than the number of samples, 1000");
   refused(
       [](Options& o) {
         o.evaluation_budget = 5000;
-        o.move = MoveKind::growing_chains;
+        o.move = GrowingChains{};
       },
       "evaluation_budget = 5000", "0 with growing chains");
 }

@@ -25,12 +25,10 @@ using replicates::replicate;
 using replicates::runs;
 using statistics::Estimate;
 using statistics::standard_errors;
-using tmcmc::Boundary;
 using tmcmc::BoxPrior;
 using tmcmc::Centre;
 using tmcmc::Criterion;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
@@ -73,7 +71,7 @@ TEST_CASE("both criteria and both means sample an asymmetric, correlated posteri
   for (const Criterion& criterion :
        {tmcmc::coefficient_of_variation_rule(), tmcmc::effective_sample_size_rule()}) {
     for (const Centre centre : {Centre::weighted_mean, Centre::plain_mean}) {
-      CAPTURE(static_cast<int>(criterion.kind), static_cast<int>(centre));
+      CAPTURE(criterion.rule.index(), static_cast<int>(centre));
       Options options = good_options(2);
       options.criterion = criterion;
       options.centre = centre;
@@ -97,8 +95,9 @@ TEST_CASE("one stage of growing chains has the distribution of its kernel, not t
   const double exact_second = (2.0 / rate * exact_mean) - 1.0 / std::expm1(rate);
   Options options;
   options.samples = 5000;
-  options.proposal_scale = 1.0;
-  const double sd = options.proposal_scale * std::sqrt(exact_second - exact_mean * exact_mean);
+  options.scale_rule = tmcmc::FixedScale{1.0};
+  const double sd = std::get<tmcmc::FixedScale>(options.scale_rule).scale *
+                    std::sqrt(exact_second - exact_mean * exact_mean);
 
   Eigen::MatrixXd kernel(cells, cells);
   Eigen::VectorXd x(cells);
@@ -128,22 +127,21 @@ TEST_CASE("one stage of growing chains has the distribution of its kernel, not t
 
   const Problem problem = problem_of([](const auto& point) { return -rate * point[0]; },
                                      Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
-  const auto mean_over_runs = [&](MoveKind move) {
+  const auto mean_over_runs = [&](const tmcmc::Move& move) {
     options.move = move;
-    options.move_steps = 1;
     std::vector<double> means;
     for (std::uint32_t run = 0; run < runs; ++run) {
-      means.push_back(tmcmc::run(problem, options, {.seed = 13, .run = run}, tmcmc::fixed_schedule({1.0}))
+      means.push_back(tmcmc::run(problem, options, {.seed = 13, .run = run}, {}, tmcmc::fixed_schedule({1.0}))
                           .final.points.mean());
     }
     return statistics::estimate(means);
   };
   const double discretisation = 1e-5;
   REQUIRE_THAT((h * picks).dot(x), WithinAbs(exact_mean, discretisation));
-  const Estimate resampled = mean_over_runs(MoveKind::resample_move);
+  const Estimate resampled = mean_over_runs(tmcmc::ResampleMove{.steps = 1});
   CHECK_THAT(resampled.mean,
              WithinAbs(exact_mean, standard_errors * resampled.standard_error + discretisation));
-  const Estimate grown = mean_over_runs(MoveKind::growing_chains);
+  const Estimate grown = mean_over_runs(tmcmc::GrowingChains{});
   CHECK_THAT(grown.mean, WithinAbs(growing_mean, standard_errors * grown.standard_error + discretisation));
   CHECK(std::fabs(grown.mean - exact_mean) > 2.0 * standard_errors * grown.standard_error);
 }
@@ -162,7 +160,7 @@ TEST_CASE("a truncated posterior: rejection is right at the edge of the box, the
         mean, 0.23, options.samples);
   check(over_runs(right, [](const Result& r) { return r.final.log_evidence; }), log_evidence, 2.0,
         options.samples);
-  options.boundary = Boundary::redraw;
+  options.proposal = tmcmc::RedrawnWalk{};
   const Estimate biased = mean_of(
       replicate(problem, options, 8), [](double x) { return x; }, 0);
   CHECK(biased.mean > mean + 2.0 * standard_errors * biased.standard_error);
@@ -171,8 +169,8 @@ TEST_CASE("a truncated posterior: rejection is right at the edge of the box, the
 TEST_CASE("a parameter that the likelihood ignores stays uniform", "[tmcmc][sampler]") {
   const Problem problem = problem_of([](const auto& x) { return -200.0 * (x[0] - 0.3) * (x[0] - 0.3); },
                                      Eigen::Vector2d(-2.0, 1.0), Eigen::Vector2d(2.0, 3.0));
-  for (const MoveKind move : {MoveKind::resample_move, MoveKind::growing_chains}) {
-    CAPTURE(static_cast<int>(move));
+  for (const tmcmc::Move& move : {tmcmc::Move(tmcmc::ResampleMove{}), tmcmc::Move(tmcmc::GrowingChains{})}) {
+    CAPTURE(move.index());
     Options options = good_options(2);
     options.samples = 300;
     options.move = move;
@@ -225,7 +223,7 @@ TEST_CASE("evidence from a fixed schedule is unbiased", "[tmcmc][sampler]") {
   std::vector<double> evidence;
   for (std::uint32_t run = 0; run < 2000; ++run) {
     const Result result =
-        tmcmc::run(problem, options, {.seed = 11, .run = run}, tmcmc::fixed_schedule({0.3, 0.7, 1.0}));
+        tmcmc::run(problem, options, {.seed = 11, .run = run}, {}, tmcmc::fixed_schedule({0.3, 0.7, 1.0}));
     evidence.push_back(std::exp(result.final.log_evidence));
   }
   CHECK(statistics::estimate(evidence).errors_from(-std::expm1(-4.0) / 4.0) < standard_errors);

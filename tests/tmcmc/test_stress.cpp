@@ -20,7 +20,6 @@ using Catch::Matchers::WithinRel;
 using problems::by_rows;
 using tmcmc::BoxPrior;
 using tmcmc::Index;
-using tmcmc::MoveKind;
 using tmcmc::Options;
 using tmcmc::Problem;
 using tmcmc::Result;
@@ -36,12 +35,12 @@ std::vector<std::pair<std::string, Options>> every_kind() {
   Options paper;
   paper.samples = 200;
   Options redraw = paper;
-  redraw.boundary = tmcmc::Boundary::redraw;
+  redraw.proposal = tmcmc::RedrawnWalk{};
   Options growing = paper;
-  growing.move = MoveKind::growing_chains;
+  growing.move = tmcmc::GrowingChains{};
   Options adaptive = paper;
-  adaptive.scale_rule = tmcmc::ScaleRule::target_acceptance;
-  adaptive.coordinates = tmcmc::Coordinates::unbounded;
+  adaptive.scale_rule = tmcmc::TargetAcceptance{};
+  adaptive.proposal = tmcmc::MetropolisProposal{.coordinates = tmcmc::Coordinates::unbounded};
   adaptive.cross_fit = true;
   return {{"paper", paper},
           {"redraw", redraw},
@@ -205,7 +204,7 @@ TEST_CASE("two samples, with every kind of move", "[tmcmc][stress]") {
   for (auto [name, options] : every_kind()) {
     CAPTURE(name);
     options.samples = 2;
-    options.chains = 1;
+    if (auto* waste_free = std::get_if<tmcmc::WasteFree>(&options.move)) waste_free->chains = 1;
     options.evaluation_budget = 0;
     options.criterion = tmcmc::effective_sample_size_rule(0.9);
     const Result result = tmcmc::run(problem, options, {});
@@ -224,15 +223,16 @@ TEST_CASE("a posterior in a corner a millionth of the box wide: mean and evidenc
   const Problem problem = {by_rows([](const auto& x) { return -rate * (x[0] + x[1]); }), unit_box()};
   const double exact = -2.0 * std::log(rate);
   for (auto [name, options] : every_kind()) {
-    if (options.move == MoveKind::growing_chains || options.boundary == tmcmc::Boundary::redraw) {
+    if (std::holds_alternative<tmcmc::GrowingChains>(options.move) ||
+        std::holds_alternative<tmcmc::RedrawnWalk>(options.proposal)) {
       continue;  // biased: the paper's wording, and the published scripts
     }
     CAPTURE(name);
     options.samples = 2000;
     options.evaluation_budget = 0;
-    options.move_steps = 10;
-    options.proposal_scale = 0.8;
-    options.chains = 50;
+    if (auto* waste_free = std::get_if<tmcmc::WasteFree>(&options.move)) waste_free->chains = 50;
+    if (auto* resample_move = std::get_if<tmcmc::ResampleMove>(&options.move)) resample_move->steps = 10;
+    if (auto* fixed = std::get_if<tmcmc::FixedScale>(&options.scale_rule)) fixed->scale = 0.8;
     const Result result = tmcmc::run(problem, options, {.seed = 3});
     CHECK(result.stop == StopReason::completed);
     CHECK(result.evidence.standard_error < 0.3);
@@ -253,7 +253,7 @@ TEST_CASE("fifty dimensions: means and variances, and a warning where the eviden
       unit_box(dimension)};
   Options options = tmcmc::recommended_options(200000);
   options.samples = 8000;
-  options.chains = 100;
+  options.move = tmcmc::WasteFree{100};
   const Result result = tmcmc::run(problem, options, {.seed = 4});
   CHECK(result.stop == StopReason::completed);
   CHECK(has_warning(result, WarningKind::few_for_covariance));

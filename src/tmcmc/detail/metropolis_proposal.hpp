@@ -10,6 +10,12 @@
 
 namespace tmcmc::detail {
 
+/// What happens to a proposal outside the prior box.
+enum class Boundary {
+  reject,  ///< the chain stays
+  redraw   ///< RedrawnWalk
+};
+
 /// The Metropolis kernel of one stage. With u the coordinates, L = factor_unit * factor the Cholesky factor of their
 /// covariance Sigma, and S a set of whitened coordinates, a proposal is
 ///
@@ -32,7 +38,7 @@ struct MetropolisKernel {
   bool random_subsets = false;
   Coordinates coordinates = Coordinates::natural;  ///< see Coordinates
   Boundary boundary = Boundary::reject;            ///< see Boundary; redraw with plain() alone
-  Index max_redraws = 100000;                      ///< see Options::max_redraws
+  Index max_redraws = 100000;                      ///< see RedrawnWalk
   std::uint32_t stage = 0;                         ///< enters the random stream
 
   /// A random walk in all natural coordinates: what the paper has.

@@ -12,7 +12,7 @@ namespace tmcmc::detail {
 namespace {
 
 /// One step of all walkers, and what the scale learns from it.
-MoveCounts step_and_adapt(const Options& options, StageKernels& stage, Index step, Walkers& walkers,
+MoveCounts step_and_adapt(const ScaleRule& rule, StageKernels& stage, Index step, Walkers& walkers,
                           Mover& mover) {
   MoveCounts counts;
   for (std::size_t k = 0; k < stage.kernels.size(); ++k) {
@@ -22,11 +22,12 @@ MoveCounts step_and_adapt(const Options& options, StageKernels& stage, Index ste
                            static_cast<std::uint32_t>(step), walkers.points, walkers.log_likelihood);
     }
   }
-  if (options.scale_rule == ScaleRule::target_acceptance && counts.walks > 0) {
+  const auto* target = std::get_if<TargetAcceptance>(&rule);
+  if (target != nullptr && counts.walks > 0) {
     const double acceptance = static_cast<double>(counts.accepted_walks) / static_cast<double>(counts.walks);
     for (MetropolisKernel& kernel : stage.kernels) {
-      kernel.scale *= portable_math::exp((acceptance - options.target_acceptance) /
-                                         std::sqrt(static_cast<double>(step + 1)));
+      kernel.scale *=
+          portable_math::exp((acceptance - target->acceptance) / std::sqrt(static_cast<double>(step + 1)));
     }
   }
   return counts;
@@ -78,23 +79,23 @@ StageMoves grow_chains(const MetropolisKernel& kernel, std::span<const Index> an
   return result;
 }
 
-StageMoves keep_last_states(const Options& options, StageKernels& kernels, Index steps, Index most_steps,
-                            Walkers& walkers, Mover& mover, Population& starts) {
+StageMoves keep_last_states(const ScaleRule& rule, double mixing_correlation, StageKernels& kernels,
+                            Index steps, Index most_steps, Walkers& walkers, Mover& mover,
+                            Population& starts) {
   StageMoves result;
   if (most_steps > steps) {
     starts = walkers.points;
   }
   const auto go_on = [&] {
-    return result.steps < most_steps &&
-           largest_correlation(starts, walkers.points) > options.mixing_correlation;
+    return result.steps < most_steps && largest_correlation(starts, walkers.points) > mixing_correlation;
   };
   while (result.steps < steps || go_on()) {
-    result.counts += step_and_adapt(options, kernels, result.steps++, walkers, mover);
+    result.counts += step_and_adapt(rule, kernels, result.steps++, walkers, mover);
   }
   return result;
 }
 
-StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index steps, Walkers& walkers,
+StageMoves keep_all_states(const ScaleRule& rule, StageKernels& kernels, Index steps, Walkers& walkers,
                            Mover& mover, Walkers& chains) {
   StageMoves result;
   std::swap(chains, walkers);
@@ -107,7 +108,7 @@ StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index 
   };
   keep();
   while (result.steps < steps) {
-    result.counts += step_and_adapt(options, kernels, result.steps++, chains, mover);
+    result.counts += step_and_adapt(rule, kernels, result.steps++, chains, mover);
     keep();
   }
   result.equilibrium_t = equilibrium_t(walkers.log_likelihood, m);
@@ -119,15 +120,14 @@ StageMoves keep_all_states(const Options& options, StageKernels& kernels, Index 
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
                            Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work) {
-  switch (options.move) {
-    case MoveKind::growing_chains:
-      return grow_chains(kernels.kernels.front(), ancestors, walkers, mover);
-    case MoveKind::waste_free:
-      return keep_all_states(options, kernels, steps, walkers, mover, work.chains);
-    case MoveKind::resample_move:
-      break;
+  if (std::holds_alternative<GrowingChains>(options.move)) {
+    return grow_chains(kernels.kernels.front(), ancestors, walkers, mover);
   }
-  return keep_last_states(options, kernels, steps, most_steps, walkers, mover, work.starts);
+  if (std::holds_alternative<WasteFree>(options.move)) {
+    return keep_all_states(options.scale_rule, kernels, steps, walkers, mover, work.chains);
+  }
+  return keep_last_states(options.scale_rule, std::get<ResampleMove>(options.move).mixing_correlation,
+                          kernels, steps, most_steps, walkers, mover, work.starts);
 }
 
 double equilibrium_t(const Eigen::VectorXd& log_likelihood, Index chains) {

@@ -1,5 +1,5 @@
 /// \file
-/// What a stage does with its starts: the chains of each MoveKind, and the adaptation of the proposal scale.
+/// What a stage does with its starts: the chains of each Move, and the adaptation of the proposal scale.
 #pragma once
 
 #include <vector>
@@ -30,9 +30,9 @@ struct StageMoves {
 };
 
 /// Moves the starts of a stage.
-/// \param kernels  their scale is adapted (ScaleRule::target_acceptance)
+/// \param kernels  their scale is adapted (TargetAcceptance)
 /// \param steps   Metropolis steps of each chain; not used by growing chains
-/// \param most_steps  if more than `steps`, resample-move goes on after these as Options::mixing_correlation has it
+/// \param most_steps  if more than `steps`, resample-move goes on after these as ResampleMove::mixing_correlation has it
 /// \param walkers in: the starts, of growing chains in ascending order of their `ancestors`; out: the population, of
 ///                waste-free (steps + 1) times as many
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,

@@ -11,25 +11,34 @@ namespace {
 
 constexpr double optimal_scale = 2.38;  // times 1 / sqrt(d): Roberts, Gelman and Gilks (1997)
 
-double initial_scale(const Options& options) {
-  switch (options.scale_rule) {
-    case ScaleRule::dimension:
-    case ScaleRule::target_acceptance:
-      return optimal_scale;
-    case ScaleRule::fixed:  // the factor of the covariance holds the scale
-    case ScaleRule::acceptance_linked:
-      break;
+bool divides_by_sqrt_size(const ScaleRule& rule) {
+  return std::holds_alternative<DimensionScale>(rule) || std::holds_alternative<TargetAcceptance>(rule);
+}
+
+/// What the options say of the proposals, but for their scale.
+MetropolisKernel unfitted_kernel(const Options& options) {
+  MetropolisKernel kernel;
+  if (const auto* redrawn = std::get_if<RedrawnWalk>(&options.proposal)) {
+    kernel.boundary = Boundary::redraw;
+    kernel.max_redraws = redrawn->max_redraws;
+  } else {
+    const auto& proposal = std::get<MetropolisProposal>(options.proposal);
+    kernel.independent_fraction = proposal.independent_fraction;
+    kernel.random_subsets = proposal.random_subsets;
+    kernel.coordinates = proposal.coordinates;
   }
-  return 1.0;
+  kernel.divide_by_sqrt_size = divides_by_sqrt_size(options.scale_rule);
+  return kernel;
 }
 
 MetropolisKernel kernel_of(const Prior& prior, const Options& options, const State& from,
                            ConstDoubles weights, double weight_sum) {
-  MetropolisKernel kernel;
-  const bool fixed = options.scale_rule == ScaleRule::fixed;
-  const double in_factor = fixed ? options.proposal_scale : 1.0;
+  MetropolisKernel kernel = unfitted_kernel(options);
+  const auto* fixed = std::get_if<FixedScale>(&options.scale_rule);
+  const double in_factor =
+      fixed != nullptr ? fixed->scale : 1.0;  // the factor of the covariance holds the fixed scale
   Population unbounded;
-  const bool natural = options.coordinates == Coordinates::natural;
+  const bool natural = kernel.coordinates == Coordinates::natural;
   if (!natural) {
     unbounded = to_unbounded(from.points, prior);
   }
@@ -37,17 +46,11 @@ MetropolisKernel kernel_of(const Prior& prior, const Options& options, const Sta
   kernel.factor = cholesky_factor(
       proposal_covariance(points, weights, weight_sum, in_factor, options.centre, options.threads));
   kernel.factor_unit = 1.0 / in_factor;
-  if (options.independent_fraction > 0.0) {
+  if (kernel.independent_fraction > 0.0) {
     kernel.centre = weighted_mean(points, weights, weight_sum, options.threads);
   }
-  kernel.scale = fixed || from.proposal_scale == 0.0 ? initial_scale(options) : from.proposal_scale;
-  kernel.divide_by_sqrt_size =
-      options.scale_rule == ScaleRule::dimension || options.scale_rule == ScaleRule::target_acceptance;
-  kernel.independent_fraction = options.independent_fraction;
-  kernel.random_subsets = options.random_subsets;
-  kernel.coordinates = options.coordinates;
-  kernel.boundary = options.boundary;
-  kernel.max_redraws = options.max_redraws;
+  const double first_scale = kernel.divide_by_sqrt_size ? optimal_scale : 1.0;
+  kernel.scale = fixed != nullptr || from.proposal_scale == 0.0 ? first_scale : from.proposal_scale;
   kernel.stage = static_cast<std::uint32_t>(from.stage + 1);
   return kernel;
 }

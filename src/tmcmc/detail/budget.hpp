@@ -1,0 +1,27 @@
+/// \file
+/// How many Metropolis steps a stage takes, also out of a budget of log-likelihoods.
+#pragma once
+
+#include "tmcmc/options.hpp"
+#include "tmcmc/result.hpp"
+
+namespace tmcmc::detail {
+
+/// Chains of a stage after the first.
+[[nodiscard]] Index chains_of(const Options& options);
+
+/// Metropolis steps of each chain in a stage.
+struct StageSteps {
+  Index least = 0;
+  Index most = 0;  ///< more than `least` where the chains go on until they have mixed
+};
+
+/// Steps of the stage from `from` to the temperature `next`: what the options say, or in the last stage as many as the
+/// budget holds. Before the last stage, chains of waste-free share the budget with the stages that are expected to follow,
+/// so that the number of stages does not decide whether beta = 1 is reached.
+[[nodiscard]] StageSteps steps_of(const Options& options, const State& from, double next);
+
+/// Whether the budget holds the stage from `from` to the temperature `next`.
+[[nodiscard]] bool fits_budget(const Options& options, const State& from, double next);
+
+}  // namespace tmcmc::detail
