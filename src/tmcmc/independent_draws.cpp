@@ -14,7 +14,6 @@
 
 namespace tmcmc {
 
-
 namespace {
 
 /// Stages of Purpose::reference: the rounds of a pass and the attempts of the joint fit count from 0.
