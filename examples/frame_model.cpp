@@ -22,8 +22,7 @@ Model shear_frame(const ModelOptions& options) {
                                io::format_number(frame.observations().frequency_hz[i]));
   }
   const auto& names = FrameLikelihood::parameter_names();
-  return {names, experiments::read_prior(options.prior, {.names = names, .nonnegative = true}), frame,
-          description, frame};
+  return {names, experiments::read_prior(options.prior, names), frame, description, frame};
 }
 
 Model other_program(const ModelOptions& options) {
@@ -35,8 +34,7 @@ Model other_program(const ModelOptions& options) {
       storage::require_parameter_name(name);
     }
   };
-  tmcmc::Prior prior = experiments::read_prior(options.prior, {.names = {}, .require_name = require_name});
-  auto names = prior.names();
+  auto [names, prior] = experiments::read_named_prior(options.prior, require_name);
   models::Program program({options.command, names, options.timeout_seconds});
   std::string description = "program with checksum " + storage::file_checksum(options.command);
   if (options.has_own_observations) {
@@ -56,7 +54,6 @@ Model make_model(const ModelOptions& options) {
 
 storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {
   storage::InferenceData data{.parameter_names = model.parameter_names,
-                              .parameter_units = model.prior.units(),
                               .samples = result.final.points,
                               .log_likelihood = result.final.log_likelihood};
   const auto stages = [&](const std::string& name, auto member) {

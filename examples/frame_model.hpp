@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "prior_file.hpp"
 #include "shear_frame.hpp"
 #include "storage/inference_data.hpp"
 #include "tmcmc/sampler.hpp"
@@ -18,8 +17,8 @@ namespace examples {
 struct Model {
   /// One for each column of the points.
   std::vector<std::string> parameter_names;
-  /// Of the parameters in the same order.
-  tmcmc::Prior prior;
+  /// Bounds in the same order.
+  tmcmc::BoxPrior prior;
   /// Of a batch of points.
   tmcmc::LogLikelihood log_likelihood;
   /// One line that names all that the values depend on, for the checkpoint.
@@ -34,8 +33,8 @@ struct ModelOptions {
   std::string observations = {};
   /// Whether they are the reader's own, and not those of data/examples.
   bool has_own_observations = false;
-  /// Distributions of the parameters, and the correlations between them if there are any.
-  experiments::PriorFiles prior = {};
+  /// Bounds of the parameters.
+  std::string prior = {};
   /// Program that computes the log-likelihoods; empty: the shear frame.
   std::string command = {};
   /// Limit of one call of the program, s; 0: none.

@@ -1,107 +1,122 @@
-// The recommended setting of the sampler on problems with known answers: error of the log-evidence against its own standard
-// error, Kolmogorov distance of the pooled samples from the exact marginals, and mass of the modes where there are two.
+// The sampler on problems with known evidence: the paper's setting, the recommended TMCMC, and independent draws, each at the
+// same number of log-likelihoods. Errors of the log-evidence against the stated ones, warnings, effective draws, and masses of
+// modes. What to look for: |z| above 5 without a warning.
 //
-// Data: none; the problems are in closed form, but for the two-storey shear frame of the TMCMC literature (quadrature).
+// Data: none but the design of Table 1 and the prior of Table 2; the other problems are in closed form or by quadrature.
 
 #include "replication/benchmark_problems.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "command_line.hpp"
+#include "inputs.hpp"
+#include "replication/benchmark_scores.hpp"
 
 using namespace experiments;
 
 namespace {
 
-/// Largest distance between the samples' empirical distribution and a distribution function.
-double kolmogorov(std::vector<double> x, const std::function<double(double)>& cdf) {
-  std::sort(x.begin(), x.end());
-  const double n = static_cast<double>(x.size());
-  double distance = 0.0;
-  constexpr std::size_t places = 400;  // the distance is looked for at so many quantiles of the samples
-  for (std::size_t k = 0; k < places; ++k) {
-    const std::size_t i = (2 * k + 1) * x.size() / (2 * places);
-    distance = std::max(distance, std::fabs(cdf(x[i]) - (static_cast<double>(i) + 0.5) / n));
-  }
-  return distance;
-}
+constexpr std::uint64_t seed_of_rigs = 2026;
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Program program(
       "benchmark_problems",
-      "The recommended setting on problems with known evidence and marginals: Gaussians in 2, 10 and\n"
-      "50 dimensions, two normals, a banana, a posterior in a corner of its box, a two-storey frame.");
+      "The paper's sampler, the recommended one and independent draws at equal cost on problems with\n"
+      "known evidence: friction, Gaussians, bananas, modes, funnel, plateau, spike, corner, frames.");
+  InputFiles inputs;
   RunOptions run_options;
-  run_options.runs = 20;
+  run_options.runs = 10;
   std::string only;
-  program.add_output("CSV with one row a problem: errors of the log-evidence, distances, masses of modes");
-  program.add_text("--problem", only, "TEXT", "Only the problem of this name, for example 'banana'");
-  run_options.add_to(program);
+  std::string only_sampler;
+  long rigs = 20;
+  long evaluations = 0;
+  long most_evaluations = 31000;
+  program.add_output("CSV with one row a problem, sampler and number of evaluations");
+  program.add_text("--problem", only, "TEXT", "Only problems whose name begins so, for example 'banana'");
+  program.add_text("--sampler", only_sampler, "TEXT", "Only this sampler, for example 'independent draws'");
+  program.add_number("--rigs", rigs, count(0, 1000),
+                     "Simulated rigs, whose parameters are drawn from the prior");
+  program.add_number("--evaluations", evaluations, count(0, 10000000),
+                     "Only this number of log-likelihoods, from 2000; 0: 3000, 10000, 31000 and 100000");
+  program.add_number("--most-evaluations", most_evaluations, count(3000, 10000000),
+                     "Leaves out larger numbers of log-likelihoods");
+  run_options.add_to(program, 2);
+  inputs.add_observations_to(program);
+  inputs.add_prior_to(program);
 
   return program.run(argc, argv, [&] {
-    auto csv = open_csv(program.output(),
-                        {"problem", "dimensions", "evaluations", "stages", "log_evidence", "mean_error",
-                         "rms_error", "rms_standard_error", "within_2_standard_errors", "largest_distance",
-                         "first_mode_mass", "mean_mass_found", "sd_of_mass_found"});
-    program.report("{} runs of each problem, seed {}\n", run_options.runs, run_options.seed);
-    program.report("{:<24} {:>8} {:>7} {:>9} {:>8} {:>8} {:>8} {:>9} {:>16}\n", "", "evals", "stages", "ln Z",
-                   "error", "rms", "s.e.", "distance", "mass of mode 1");
-    const auto problems = replication::benchmark_problems();
-    const auto chosen = [&](const auto& p) { return only.empty() || p.name == only; };
-    if (std::none_of(problems.begin(), problems.end(), chosen)) {
+    auto problems = replication::closed_form_problems();
+    using replication::ReadingName;
+    for (const auto name : {ReadingName::as_published, ReadingName::corrected}) {
+      const bool is_published = name == ReadingName::as_published;
+      const auto reading = replication::reading(name);
+      for (auto& p : replication::friction_problems(
+               is_published ? "as_published" : "corrected", reading, read_observations(inputs.observations),
+               prior_for(inputs, reading), is_published ? static_cast<int>(rigs) : 0, seed_of_rigs)) {
+        problems.push_back(std::move(p));
+      }
+    }
+    std::vector<long> budgets{3000, 10000, 31000, 100000};
+    if (evaluations > 0) {
+      budgets = {evaluations};
+    } else {
+      budgets.erase(std::upper_bound(budgets.begin(), budgets.end(), most_evaluations), budgets.end());
+    }
+    using Sampler = replication::BenchmarkSampler;
+    std::vector<Sampler> samplers;
+    for (const Sampler sampler : {Sampler::published, Sampler::recommended, Sampler::independent_draws}) {
+      if (only_sampler.empty() || only_sampler == replication::describe(sampler)) {
+        samplers.push_back(sampler);
+      }
+    }
+    if (samplers.empty()) {
+      throw std::invalid_argument(fmt::format(
+          "--sampler: value '{}': expected published, recommended or independent draws", only_sampler));
+    }
+    const auto chosen = [&](const auto& p) { return p.name.starts_with(only); };
+    const auto chosen_count = std::count_if(problems.begin(), problems.end(), chosen);
+    if (chosen_count == 0) {
       throw std::invalid_argument(fmt::format("--problem: value '{}': expected the name of a problem", only));
     }
-    io::Progress progress("benchmark_problems", problems.size() * static_cast<std::size_t>(run_options.runs),
+
+    auto csv = open_csv(program.output(), {"problem", "kind", "dimensions", "settings_chosen_on_it",
+                                           "sampler", "evaluations", "runs", "log_evidence", "rms_error",
+                                           "bias", "rms_z", "worst_z", "worst_z_without_warning", "warned",
+                                           "effective_draws", "unfinished", "mode_masses_found"});
+    program.report("{} runs of each problem, seed {}\n", run_options.runs, run_options.seed);
+    program.report("{:<24} {:<18} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>9} {:>6} {:>6}\n", "", "",
+                   "evals", "rms", "bias", "rms z", "worst z", "silent z", "warned", "draws", "unfin.",
+                   "modes");
+    io::Progress progress("benchmark_problems",
+                          static_cast<std::size_t>(chosen_count) * budgets.size() * samplers.size() *
+                              static_cast<std::size_t>(run_options.runs),
                           !program.quiet());
+    const auto options = run_options.study_options();
     for (std::uint32_t index = 0; index < problems.size(); ++index) {
-      const auto& p = problems[index];
+      auto& p = problems[index];
       if (!chosen(p)) {
         continue;
       }
-      const auto runs = replication::run_arm(p.problem, {p.name, p.options}, index,
-                                             run_options.study_options(), [&] { progress.advance(); });
-      std::vector<double> errors, standard_errors, masses;
-      double inside = 0.0, evaluations = 0.0, stages = 0.0;
-      const double count = static_cast<double>(runs.size());
-      for (const auto& run : runs) {
-        const auto& evidence = run.result.evidence;
-        errors.push_back(evidence.log_evidence - p.log_evidence);
-        standard_errors.push_back(evidence.standard_error);
-        inside += std::fabs(errors.back()) <= 2.0 * evidence.standard_error ? 1.0 / count : 0.0;
-        evaluations += static_cast<double>(run.result.final.evaluations) / count;
-        stages += static_cast<double>(run.iterations()) / count;
-        const auto& points = run.result.final.points;
-        double in_mode = 0.0;
-        for (Eigen::Index i = 0; p.in_first_mode && i < points.rows(); ++i) {
-          in_mode += p.in_first_mode(points.row(i)) ? 1.0 / static_cast<double>(points.rows()) : 0.0;
+      p.problem = interruptible(std::move(p.problem));
+      for (const Sampler sampler : samplers) {
+        for (const long budget : budgets) {
+          const auto s = replication::score(
+              replication::benchmark_runs(p, sampler, budget, index, options, [&] { progress.advance(); }));
+          program.report(
+              "{:<24} {:<18} {:>7} {:>9.4f} {:>9.4f} {:>9.2f} {:>9.1f} {:>9.1f} {:>7.3f} {:>9.0f} {:>6.2f} "
+              "{:>6}\n",
+              p.name, replication::describe(sampler), budget, s.rms_error, s.bias, s.rms_z, s.worst_z,
+              s.worst_z_without_warning, s.warned, s.effective_draws, s.unfinished,
+              p.mode_masses.empty() ? "" : fmt::format("{:.2f}", s.mode_masses_found));
+          if (csv) {
+            csv->row(p.name, p.name.starts_with("rig ") ? "rig" : "problem", p.problem.prior.dimension(),
+                     p.tuned_on ? "yes" : "no", replication::describe(sampler), budget, run_options.runs,
+                     digits(p.log_evidence), digits(s.rms_error, 6), digits(s.bias, 6), digits(s.rms_z, 6),
+                     digits(s.worst_z, 6), digits(s.worst_z_without_warning, 6), s.warned,
+                     digits(s.effective_draws, 6), s.unfinished, s.mode_masses_found);
+          }
         }
-        masses.push_back(p.in_first_mode ? in_mode : 1.0);
-      }
-      double distance = 0.0;
-      for (Eigen::Index j = 0; j < p.problem.prior.dimension(); ++j) {
-        std::vector<double> pooled;
-        for (const auto& run : runs) {
-          const auto column = run.result.final.points.col(j);
-          pooled.insert(pooled.end(), column.begin(), column.end());
-        }
-        distance =
-            std::max(distance, kolmogorov(std::move(pooled), [&](double x) { return p.marginal_cdf(j, x); }));
-      }
-      const auto mean_error = replication::moments(errors).mean;
-      const auto mass = replication::moments(masses);
-      program.report("{:<24} {:>8.0f} {:>7.1f} {:>9.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.4f} {:>16}\n", p.name,
-                     evaluations, stages, p.log_evidence, mean_error, statistics::root_mean_square(errors),
-                     statistics::root_mean_square(standard_errors), distance,
-                     p.in_first_mode ? fmt::format("{:.3f} +- {:.3f}, {:.3f}", mass.mean,
-                                                   mass.standard_deviation, p.first_mode_mass)
-                                     : "");
-      if (csv) {
-        csv->row(p.name, p.problem.prior.dimension(), evaluations, stages, digits(p.log_evidence), mean_error,
-                 statistics::root_mean_square(errors), statistics::root_mean_square(standard_errors), inside,
-                 digits(distance, 4), digits(p.first_mode_mass, 6), mass.mean, mass.standard_deviation);
       }
     }
     io::commit_all(csv);

@@ -2,25 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <sstream>
 
 #include "errors/invalid_value.hpp"
 #include "portable_math/sums.hpp"
-#include "tmcmc/detail/metropolis_proposal.hpp"
+#include "tmcmc/detail/resample.hpp"
 #include "tmcmc/log_weights.hpp"
-#include "tmcmc/resampling.hpp"
 
 namespace tmcmc {
 
 namespace {
 
-/// Stages of Purpose::reference: the rounds of a pass and the attempts of the joint fit count from 0.
-constexpr std::uint32_t tempered_fit_stage = 1000;
+/// Stages of Purpose::reference: the attempts of the joint fit count from 0.
 constexpr std::uint32_t final_draws_stage = 2000;
 
-constexpr Index most_attempts = 4;  // of the joint fit
+constexpr double least_beta = 0.01;           // that one search has to reach
+constexpr double share_of_a_good_fit = 0.65;  // of the first trial draws
+constexpr double share_of_a_poor_fit = 0.1;   // below it there are more attempts
+constexpr std::uint32_t most_attempts = 4;    // of the joint fit
+constexpr std::uint32_t most_attempts_poor = 12;
 
 template <class T>
 void require(bool condition, const char* field, T value, const char* expected) {
@@ -39,156 +39,152 @@ StreamKey derived(const StreamKey& key, std::uint32_t number) {
   return result;
 }
 
-/// A TMCMC run with the fits that it leads to.
-struct Pass {
-  StreamKey key;
-  Result result;
-  WeightedPoints population;
-  std::optional<StudentMixture> tempered;  // fitted to the population at beta near 1/4
-  StudentMixture fit;
-  ReferenceDraws draws;
-  Index evaluations = 0;
-};
-
-Pass first_pass(const Problem& problem, const IndependentDraws& settings, const StreamKey& key) {
-  Pass pass{.key = key, .result = {}, .population = {}, .tempered = {}, .fit = {}, .draws = {}};
-  const double half = 0.5 * static_cast<double>(settings.evaluations);
-  const auto share =
-      static_cast<Index>(std::min(std::max(2000.0, settings.first_pass_share * half), 0.5 * half));
-  Options options = recommended_options(std::max<Index>(share, 500));
-  const Index samples = options.samples;
-  const Index chains = std::clamp<Index>(samples / settings.steps_per_chain, 5, samples / 2);
-  options.move = WasteFree{.chains = chains};
-  options.samples = samples / chains * chains;
-  options.threads = settings.threads;
-  options.batch_rows = settings.batch_rows;
-  Population quarter;
-  double least_distance = std::numeric_limits<double>::infinity();
-  pass.result = run(problem, options, key, [&](const Progress& progress) {
-    const double beta = progress.state.beta;
-    const double distance =
-        beta > 0.0 && beta < 1.0 ? std::fabs(portable_math::log(beta / 0.25)) : least_distance;
-    if (distance < least_distance) {
-      least_distance = distance;
-      quarter = progress.state.points;
-    }
-  });
-  pass.evaluations = pass.result.final.evaluations;
-  pass.population = fit_points(pass.result, problem.prior);
-  if (quarter.rows() > 0) {
-    pass.tempered =
-        fit_mixture({to_unbounded(quarter, problem.prior), Eigen::VectorXd::Ones(quarter.rows()), {}}, 2,
-                    settings.fit, key, tempered_fit_stage);
+/// Effective size that the criterion asks of a population of so many draws as a fit takes.
+double effective_target(const IndependentDraws& settings, Index d) {
+  const double population = std::max(200.0, 40.0 * static_cast<double>(d));
+  if (const auto* size = std::get_if<EffectiveSampleSize>(&settings.criterion.rule)) {
+    return population * size->fraction;
   }
-  pass.fit = fit_mixture(pass.population, settings.fit, key, 0);
-  return pass;
+  const double target = std::get<CoefficientOfVariation>(settings.criterion.rule).target;
+  return population / (1.0 + target * target);
 }
 
+SearchOptions search_options(const IndependentDraws& settings, Index d) {
+  constexpr double fewest = 2400.0;
+  const auto all = static_cast<double>(settings.evaluations);
+  return {.evaluations =
+              static_cast<Index>(0.5 * std::min(std::max(settings.search_share * all, fewest), 0.5 * all)),
+          .target = effective_target(settings, d),
+          .enough = 10.0 * effective_target(settings, d),
+          .prior_share = settings.prior_share,
+          .fit = settings.fit,
+          .threads = settings.threads,
+          .batch_rows = settings.batch_rows};
+}
+
+/// The fit with a share of the tempered ones, if there are any, and one of the prior.
 ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMixture& fit,
-                              const std::optional<StudentMixture>& tempered) {
-  return {.fitted = tempered ? blend(fit, 1.0 - settings.tempered_share, *tempered) : fit,
-          .prior_share = settings.prior_share};
+                              const std::array<Search, 2>& searches) {
+  const StudentMixture& a = searches[0].tempered;
+  const StudentMixture& b = searches[1].tempered;
+  if (a.size() == 0 && b.size() == 0) {
+    return {.fitted = fit, .prior_share = settings.prior_share};
+  }
+  const StudentMixture tempered = a.size() > 0 && b.size() > 0 ? blend(a, 0.5, b) : (a.size() > 0 ? a : b);
+  return {.fitted = blend(fit, 1.0 - settings.tempered_share, tempered), .prior_share = settings.prior_share};
 }
 
-/// Share of the posterior mass at points where the fit has less than a thousandth of the posterior's density.
-double missed_mass(const StudentMixture& fit, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
+/// Share of the posterior mass, at up to 2000 of the draws, where a search has made fewer than 20 draws per unit of mass.
+double missed_mass(const Search& search, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
                    double log_evidence, int threads) {
-  const Eigen::VectorXd density = log_density(fit, draws.z, threads);
-  const double log_thousandth = -portable_math::log(1000.0);
-  return portable_math::sum_of(static_cast<std::size_t>(weights.size()),
-                               [&](std::size_t row) {
-                                 const auto i = static_cast<Index>(row);
-                                 const double posterior =
-                                     draws.log_prior[i] + draws.log_likelihood[i] - log_evidence;
-                                 return density[i] < posterior + log_thousandth ? weights[i] : 0.0;
-                               }) /
-         static_cast<double>(weights.size());
+  constexpr Index most_points = 2000;
+  const double log_fewest = portable_math::log(20.0);
+  const Index n = draws.z.rows();
+  const Index stride = (n + most_points - 1) / most_points;
+  Population z((n + stride - 1) / stride, draws.z.cols());
+  Eigen::VectorXd log_prior(z.rows());
+  for (Index i = 0; i < z.rows(); ++i) {
+    z.row(i) = draws.z.row(i * stride);
+    log_prior[i] = draws.log_prior[i * stride];
+  }
+  const Eigen::VectorXd log_draws = log_draws_per_volume(search.draws, z, log_prior, threads);
+  double missed = 0.0;
+  double all = 0.0;
+  for (Index i = 0; i < z.rows(); ++i) {
+    const double weight = weights[i * stride];
+    const double posterior = log_prior[i] + draws.log_likelihood[i * stride] - log_evidence;
+    all += weight;
+    missed += log_draws[i] < posterior + log_fewest ? weight : 0.0;
+  }
+  return all > 0.0 ? missed / all : 0.0;
 }
 
-std::vector<MeasurementWarning> warnings_of(const MeasuredPosterior& measured, double effective_share,
-                                            double least_effective_share) {
+std::vector<MeasurementWarning> warnings_of(const MeasuredPosterior& measured) {
   using Kind = MeasurementWarningKind;
   std::vector<MeasurementWarning> warnings;
-  const auto warn = [&](Kind kind, const std::string& what, double value, const char* bound_is, double bound,
+  const auto warn = [&](Kind kind, const char* what, double value, const char* bound_is, double bound,
                         const char* advice) {
     std::ostringstream text;
     text.precision(3);
     text << what << " is " << value << ": " << bound_is << " " << bound << "; " << advice;
     warnings.push_back({kind, text.str()});
   };
-  constexpr double most_missed = 0.02;
-  for (std::size_t p = 0; p < 2; ++p) {
-    const std::string of_run = " of TMCMC run " + std::to_string(p + 1);
-    const Result& run = measured.first_passes[p];
-    if (run.stop != StopReason::completed) {
-      warn(Kind::first_pass_not_completed, "beta at the end" + of_run, run.final.beta, "below", 1.0,
-           "give the first passes more evaluations");
-    }
-    if (!(measured.missed_mass[p] <= most_missed)) {
-      warn(Kind::fits_differ, "the posterior mass that the fit" + of_run + " has missed",
-           measured.missed_mass[p], "above", most_missed,
-           "another part of the posterior may have been missed by both; take more evaluations");
-    }
+  constexpr double most_missed = 0.25;
+  constexpr double most_missed_by_both = 0.01;
+  const double missed = std::max(measured.missed_mass[0], measured.missed_mass[1]);
+  const double missed_by_both = measured.missed_mass[0] * measured.missed_mass[1];
+  const char* advice = "another part may have been missed by both; take more evaluations or other seeds";
+  if (!(missed <= most_missed)) {
+    warn(Kind::fits_differ, "the posterior mass that one of two searches has missed", missed, "above",
+         most_missed, advice);
+  } else if (!(missed_by_both <= most_missed_by_both)) {
+    warn(Kind::fits_differ, "the product of the posterior masses that each of two searches has missed",
+         missed_by_both, "above", most_missed_by_both, advice);
   }
-  if (!(effective_share >= least_effective_share)) {
-    warn(Kind::low_overlap, "the effective share of the draws", effective_share, "below",
-         least_effective_share, "the error is a lower bound; take more evaluations or the evidence of run()");
+  constexpr double fewest_effective = 500.0;
+  constexpr double least_share = 0.05;
+  const auto n = static_cast<double>(measured.weights.size());
+  const double least = std::max(fewest_effective, least_share * n);
+  if (!(measured.effective_sample_size >= least)) {
+    warn(Kind::low_overlap, "the effective number of draws", measured.effective_sample_size, "below", least,
+         "the error is a lower bound; take more evaluations");
   }
-  const double digits =
-      portable_math::log(static_cast<double>(measured.weights.size())) / portable_math::log(10.0);
+  const double digits = portable_math::log(n) / portable_math::log(10.0);
   const double largest_shape = std::min(1.0 - 1.0 / digits, 0.7);
   if (!(measured.pareto_shape <= largest_shape)) {
     warn(Kind::heavy_weights, "the Pareto shape of the largest weights", measured.pareto_shape, "above",
-         largest_shape, "the error is a lower bound; take more evaluations or the evidence of run()");
+         largest_shape, "the error is a lower bound; take more evaluations");
   }
   return warnings;
 }
 
-/// The two TMCMC runs with their fits, each improved by rounds of its own.
-std::array<Pass, 2> search(const Problem& problem, const IndependentDraws& settings, const StreamKey& key) {
-  std::array<Pass, 2> passes;
-  for (std::uint32_t p = 0; p < 2; ++p) {
-    Pass& pass = passes[p];
-    pass = first_pass(problem, settings, derived(key, p));
-    const double left = static_cast<double>(settings.evaluations / 2 - pass.evaluations);
-    const auto n =
-        static_cast<Index>(std::min(std::max(600.0, settings.refinement_share * left), 0.35 * left) /
-                           static_cast<double>(settings.refinement_rounds));
-    for (Index round = 0; round < settings.refinement_rounds; ++round) {
-      pass.draws.append(draw_and_evaluate(problem, reference_of(settings, pass.fit, pass.tempered), n,
-                                          pass.key, static_cast<std::uint32_t>(round), settings.threads,
-                                          settings.batch_rows));
-      if (round + 1 < settings.refinement_rounds) {
-        pass.fit = improve_mixture(join(pass.population, fit_points(pass.draws, settings.threads)), pass.fit,
-                                   settings.fit);
-      }
-    }
-    pass.evaluations += pass.draws.z.rows();
+/// What a run of TMCMC on the remaining evaluations gives.
+void take_over(const Problem& problem, const IndependentDraws& settings, const StreamKey& key,
+               MeasuredPosterior& measured) {
+  Options options = recommended_options(settings.evaluations - measured.evaluations);
+  options.threads = settings.threads;
+  options.batch_rows = settings.batch_rows;
+  measured.tmcmc = run(problem, options, key);
+  const Result& result = *measured.tmcmc;
+  measured.points = result.final.points;
+  measured.log_likelihood = result.final.log_likelihood;
+  measured.weights = Eigen::VectorXd::Ones(result.final.points.rows());
+  measured.evidence = result.evidence;
+  measured.effective_sample_size = result.diagnostics.effective_sample_size.minCoeff();
+  measured.evaluations += result.final.evaluations;
+  std::ostringstream text;
+  text.precision(3);
+  text << "beta at the end of the better search is "
+       << std::max(measured.search_beta[0], measured.search_beta[1]) << ": below " << least_beta
+       << "; the result is that of TMCMC, take more evaluations";
+  measured.warnings.push_back({MeasurementWarningKind::search_not_completed, text.str()});
+  for (const Warning& warning : result.diagnostics.warnings) {
+    measured.warnings.push_back({MeasurementWarningKind::tmcmc, warning.message});
   }
-  return passes;
 }
 
-std::optional<StudentMixture> blend_of(const std::optional<StudentMixture>& a,
-                                       const std::optional<StudentMixture>& b) {
-  return a && b ? blend(*a, 0.5, *b) : (a ? a : b);
+/// Whether the fit is good enough to be frozen, or attempts have to end.
+bool is_frozen(const IndependentDraws& settings, double effective_share, std::uint32_t attempt) {
+  if (attempt == 0) {
+    return effective_share >= share_of_a_good_fit;
+  }
+  return effective_share >= settings.least_effective_share ||
+         attempt + 1 >= (effective_share >= share_of_a_poor_fit ? most_attempts : most_attempts_poor);
 }
 
 }  // namespace
 
 void IndependentDraws::validate() const {
   require(evaluations >= 2000, "evaluations", evaluations, "at least 2000");
-  require(first_pass_share > 0.0 && first_pass_share <= 0.5, "first_pass_share", first_pass_share,
-          "a number in (0, 0.5]");
-  require(refinement_share > 0.0 && refinement_share <= 0.35, "refinement_share", refinement_share,
-          "a number in (0, 0.35]");
-  require(refinement_rounds >= 1 && refinement_rounds <= 10, "refinement_rounds", refinement_rounds,
-          "a number from 1 to 10");
+  const double fraction = effective_target(*this, 1) / effective_target({}, 1);
+  require(fraction > 0.0 && fraction <= 2.0, "criterion", fraction,
+          "a positive CoV, or an effective sample size of a share in (0, 1]");
+  require(search_share > 0.0 && search_share <= 0.5, "search_share", search_share, "a number in (0, 0.5]");
   require(least_effective_share >= 0.0 && least_effective_share < 1.0, "least_effective_share",
           least_effective_share, "a number in [0, 1)");
   require(prior_share >= 0.0 && prior_share < 1.0, "prior_share", prior_share, "a number in [0, 1)");
   require(tempered_share >= 0.0 && tempered_share < 1.0, "tempered_share", tempered_share,
           "a number in [0, 1)");
-  require(steps_per_chain >= 2, "steps_per_chain", steps_per_chain, "at least 2");
   require(fit.degrees_of_freedom >= 2 && fit.degrees_of_freedom % 2 == 0, "fit.degrees_of_freedom",
           fit.degrees_of_freedom, "an even number of at least 2");
   require(fit.most_components >= 1, "fit.most_components", fit.most_components, "at least 1");
@@ -201,36 +197,39 @@ MeasuredPosterior run_with_independent_draws(const Problem& problem, const Indep
                                              const StreamKey& key) {
   settings.validate();
   const int threads = settings.threads;
-  auto passes = search(problem, settings, key);
   MeasuredPosterior measured;
-  measured.evaluations = passes[0].evaluations + passes[1].evaluations;
+  const SearchOptions search = search_options(settings, problem.prior.dimension());
+  std::array<Search, 2> searches;
+  ReferenceDraws seen;  // by a fit
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    searches[k] = search_posterior(problem, search, derived(key, k));
+    measured.search_beta[k] = searches[k].beta();
+    measured.evaluations += searches[k].draws.z.rows();
+    seen.append(searches[k].draws, threads);
+  }
+  if (std::max(measured.search_beta[0], measured.search_beta[1]) < least_beta) {
+    take_over(problem, settings, derived(key, 3), measured);
+    return measured;
+  }
+
   const auto draw = [&](Index n, std::uint32_t stage) {
     measured.evaluations += n;
     return draw_and_evaluate(problem, measured.reference, n, key, stage, threads, settings.batch_rows);
   };
-  const WeightedPoints populations = join(passes[0].population, passes[1].population);
-  const auto tempered = blend_of(passes[0].tempered, passes[1].tempered);
-  ReferenceDraws seen = passes[0].draws;  // by a fit
-  seen.append(passes[1].draws);
   ReferenceDraws draws;
-  for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
-    if (attempt > 0) {
-      seen.append(draws);
-    }
+  for (std::uint32_t attempt = 0;; ++attempt) {
     measured.reference = reference_of(
-        settings, fit_mixture(join(populations, fit_points(seen, threads)), settings.fit, key, attempt),
-        tempered);
+        settings, fit_mixture(fit_points(seen, search.target), settings.fit, key, attempt), searches);
     draws = draw((settings.evaluations - measured.evaluations) / 8, attempt);
-    const double effective = effective_sample_size(as_span(log_weights(draws, threads)), 1.0);
-    if (effective >= settings.least_effective_share * static_cast<double>(draws.z.rows())) {
+    const double effective = effective_sample_size(as_span(log_weights(draws)), 1.0);
+    if (is_frozen(settings, effective / static_cast<double>(draws.z.rows()), attempt)) {
       break;
     }
+    seen.append(draws, threads);
   }
-  draws.append(draw(settings.evaluations - measured.evaluations, final_draws_stage));
-  draws.references.resize(1);  // both are the same
-  draws.counts = {draws.z.rows()};
+  draws.append(draw(settings.evaluations - measured.evaluations, final_draws_stage), threads);
 
-  const Eigen::VectorXd log_weight = log_weights(draws, threads);
+  const Eigen::VectorXd log_weight = log_weights(draws);
   const ImportanceEstimate estimate = importance_estimate(as_span(log_weight));
   measured.points = from_unbounded(draws.z, problem.prior);
   measured.log_likelihood = draws.log_likelihood;
@@ -238,13 +237,10 @@ MeasuredPosterior run_with_independent_draws(const Problem& problem, const Indep
   measured.evidence = {estimate.log_mean, estimate.standard_error};
   measured.effective_sample_size = estimate.effective_sample_size;
   measured.pareto_shape = estimate.pareto_shape;
-  for (std::size_t p = 0; p < 2; ++p) {
-    measured.missed_mass[p] = missed_mass(passes[p].fit, draws, measured.weights, estimate.log_mean, threads);
-    measured.first_passes[p] = std::move(passes[p].result);
+  for (std::size_t k = 0; k < 2; ++k) {
+    measured.missed_mass[k] = missed_mass(searches[k], draws, measured.weights, estimate.log_mean, threads);
   }
-  measured.warnings =
-      warnings_of(measured, measured.effective_sample_size / static_cast<double>(draws.z.rows()),
-                  settings.least_effective_share);
+  measured.warnings = warnings_of(measured);
   return measured;
 }
 

@@ -154,15 +154,74 @@ class Fit {
         chance[i] = data_.weights[i] * least[i];
       }
     }
-    // Equal components about the centres, of the covariance that they would have if they shared the points evenly.
-    const double width =
-        portable_math::exp(-portable_math::log(static_cast<double>(components)) / static_cast<double>(d_));
-    mixture.weights = Eigen::VectorXd::Constant(components, 1.0 / static_cast<double>(components));
-    mixture.means.resize(d_, components);
-    for (Index k = 0; k < components; ++k) {
-      mixture.means.col(k) = data_.points.row(centres[static_cast<std::size_t>(k)]).transpose();
-      mixture.factors.push_back(width * factor);
+    return from_clusters(components, clusters(white, centres));
+  }
+
+  /// Number of the nearest centre of each point, after a few of Lloyd's iterations.
+  [[nodiscard]] std::vector<Index> clusters(const Population& white, const std::vector<Index>& first) const {
+    constexpr int iterations = 4;
+    const auto count = static_cast<Index>(first.size());
+    Eigen::MatrixXd centres(d_, count);
+    for (Index k = 0; k < count; ++k) {
+      centres.col(k) = white.row(first[static_cast<std::size_t>(k)]).transpose();
     }
+    std::vector<Index> nearest(static_cast<std::size_t>(n_), 0);
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+      Eigen::VectorXd least = Eigen::VectorXd::Constant(n_, 1e300);
+      Eigen::VectorXd distance(n_);
+      for (Index k = 0; k < count; ++k) {
+        const Eigen::VectorXd before = least;
+        lower_distances(n_, d_, white.data(), centres.col(k).data(), distance.data(), least.data());
+        for (Index i = 0; i < n_; ++i) {
+          if (least[i] < before[i]) {
+            nearest[static_cast<std::size_t>(i)] = k;
+          }
+        }
+      }
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(d_, count);
+      Eigen::VectorXd taken = Eigen::VectorXd::Zero(count);
+      for (Index i = 0; i < n_; ++i) {
+        taken[nearest[static_cast<std::size_t>(i)]] += data_.weights[i];
+      }
+      for (Index j = 0; j < d_; ++j) {
+        for (Index i = 0; i < n_; ++i) {
+          sums(j, nearest[static_cast<std::size_t>(i)]) += data_.weights[i] * white(i, j);
+        }
+      }
+      for (Index k = 0; k < count; ++k) {
+        if (taken[k] > 0.0) {
+          centres.col(k) = sums.col(k) / taken[k];
+        }
+      }
+    }
+    return nearest;
+  }
+
+  /// Components with the weights, means and covariances of the clusters.
+  [[nodiscard]] StudentMixture from_clusters(Index components, const std::vector<Index>& cluster_of) {
+    StudentMixture mixture;
+    mixture.degrees_of_freedom = options_.degrees_of_freedom;
+    mixture.means = mean_.replicate(1, components);
+    moments_.assign(static_cast<std::size_t>(components),
+                    {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
+    mixture.weights = Eigen::VectorXd::Zero(components);
+    Eigen::VectorXd deviation(d_);
+    for (Index i = 0; i < n_; ++i) {
+      Moments& moments = moments_[static_cast<std::size_t>(cluster_of[static_cast<std::size_t>(i)])];
+      const double weight = data_.weights[i];
+      moments.taken += weight;
+      for (Index j = 0; j < d_; ++j) {
+        deviation[j] = data_.points(i, j) - mean_[j];
+        moments.first[j] += weight * deviation[j];
+        for (Index l = 0; l <= j; ++l) {
+          moments.second(j, l) += weight * deviation[j] * deviation[l];
+        }
+      }
+    }
+    for (Moments& moments : moments_) {
+      moments.pull = moments.taken;
+    }
+    maximise(mixture);
     return mixture;
   }
 
@@ -210,6 +269,19 @@ class Fit {
     return log_density_sum / total_;
   }
 
+  /// Scale matrix of one component from its sums.
+  [[nodiscard]] Eigen::MatrixXd own_scale(const Moments& moments) const {
+    Eigen::MatrixXd scale(d_, d_);
+    for (Index j = 0; j < d_; ++j) {
+      for (Index l = 0; l <= j; ++l) {
+        scale(j, l) = moments.second(j, l) / moments.pull -
+                      moments.first[j] / moments.pull * (moments.first[l] / moments.pull);
+        scale(l, j) = scale(j, l);
+      }
+    }
+    return scale;
+  }
+
   void maximise(StudentMixture& mixture) const {
     const double fewest = static_cast<double>(d_ + 2);
     StudentMixture next;
@@ -227,12 +299,14 @@ class Fit {
       kept.push_back(largest);
     }
     const auto count = static_cast<Index>(kept.size());
-    const double narrowing =
-        portable_math::exp(-2.0 * portable_math::log(static_cast<double>(count)) / static_cast<double>(d_));
     double all = 0.0;
+    Eigen::MatrixXd within = Eigen::MatrixXd::Zero(d_, d_);
     for (const Index k : kept) {
-      all += moments_[static_cast<std::size_t>(k)].taken;
+      const Moments& moments = moments_[static_cast<std::size_t>(k)];
+      all += moments.taken;
+      within += moments.taken * own_scale(moments);
     }
+    within /= all;
     next.weights.resize(count);
     next.means.resize(d_, count);
     for (Index m = 0; m < count; ++m) {
@@ -241,17 +315,10 @@ class Fit {
       next.weights[m] = moments.taken / all;
       const double shrinkage =
           count == 1 ? 0.0 : static_cast<double>(d_ + 1) / (static_cast<double>(d_ + 1) + moments.taken);
-      Eigen::MatrixXd scale(d_, d_);
+      Eigen::MatrixXd scale = (1.0 - shrinkage) * own_scale(moments) + shrinkage * within;
       for (Index j = 0; j < d_; ++j) {
-        const double shift_j = moments.first[j] / moments.pull;
-        next.means(j, m) = mixture.means(j, k) + shift_j;
-        for (Index l = 0; l <= j; ++l) {
-          const double shift_l = moments.first[l] / moments.pull;
-          const double own = moments.second(j, l) / moments.pull - shift_j * shift_l;
-          scale(j, l) = (1.0 - shrinkage) * own + shrinkage * narrowing * covariance_(j, l);
-          scale(l, j) = scale(j, l);
-        }
-        scale(j, j) += 1e-6 * covariance_(j, j);
+        next.means(j, m) = mixture.means(j, k) + moments.first[j] / moments.pull;
+        scale(j, j) += 1e-6 * within(j, j) + 1e-14 * covariance_(j, j);
       }
       next.factors.push_back(cholesky_factor(scale));
     }
@@ -314,6 +381,9 @@ StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& 
     Fit fit_even(even, options);
     Fit fit_odd(odd, options);
     double best_score = -std::numeric_limits<double>::infinity();
+    // Of few points the score is noisy, and there are chance gains in many coordinates.
+    const double least_gain = std::max(options.gain_of_component,
+                                       static_cast<double>(data.points.cols()) / (weight_even + weight_odd));
     for (Index k = 1; k <= options.most_components; k *= 2) {
       if (k > 1 && std::min(weight_even, weight_odd) < static_cast<double>(k * data.points.cols())) {
         break;
@@ -321,7 +391,7 @@ StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& 
       const double score = (total_log_density(fit_even.run(k, key, stage), odd) +
                             total_log_density(fit_odd.run(k, key, stage), even)) /
                            (weight_even + weight_odd);
-      if (score > best_score + options.gain_of_component) {
+      if (score > best_score + least_gain) {
         best_score = score;
         best = k;
       } else if (score < best_score - 0.02) {

@@ -30,6 +30,9 @@ void log_add(double log_share_a, const double* a, double log_share_b, const doub
 
 Eigen::VectorXd log_density(const ReferenceDensity& reference, const Population& z,
                             const Eigen::VectorXd& log_prior, int threads) {
+  if (reference.prior_share == 1.0) {
+    return log_prior;
+  }
   Eigen::VectorXd result = log_density(reference.fitted, z, threads);
   if (reference.prior_share > 0.0) {
     log_add(portable_math::log(1.0 - reference.prior_share), result.data(),
@@ -40,12 +43,14 @@ Eigen::VectorXd log_density(const ReferenceDensity& reference, const Population&
 
 Population sample(const ReferenceDensity& reference, const Prior& prior, Index n, const StreamKey& key,
                   std::uint32_t stage, int threads) {
-  const Index d = reference.fitted.dimension();
+  const Index d = prior.dimension();
   DrawId id{.purpose = Purpose::reference, .stage = stage, .block = prior_block};
   const std::array<double, 2> shares{1.0 - reference.prior_share, reference.prior_share};
   const Index fitted = systematic_counts(shares, n, uniform_open(random_words(key, id)[0])).front();
   Population z(n, d);
-  z.topRows(fitted) = sample(reference.fitted, fitted, key, stage, threads);
+  if (fitted > 0) {
+    z.topRows(fitted) = sample(reference.fitted, fitted, key, stage, threads);
+  }
   if (prior.is_box()) {
     for (Index i = fitted; i < n; ++i) {
       id.row = static_cast<std::uint64_t>(i);

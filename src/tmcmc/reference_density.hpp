@@ -11,8 +11,8 @@ namespace tmcmc {
 /// than prior_share times the prior, no importance weight L p / q is above L / prior_share, however poor the fit is
 /// (defensive mixtures: Hesterberg 1995; Owen and Zhou 2000).
 struct ReferenceDensity {
-  StudentMixture fitted;      ///< its weights sum to 1
-  double prior_share = 0.02;  ///< in [0, 1)
+  StudentMixture fitted = {};  ///< its weights sum to 1; not used where prior_share is 1
+  double prior_share = 0.02;   ///< in [0, 1]
 };
 
 /// log q of each row.

@@ -1,7 +1,9 @@
 #include "tmcmc/reference_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/log_weights.hpp"
@@ -12,6 +14,8 @@ namespace tmcmc {
 using detail::require_valid;
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Matrix>
 Matrix stacked(const Matrix& a, const Matrix& b) {
@@ -25,12 +29,65 @@ Matrix stacked(const Matrix& a, const Matrix& b) {
   return all;
 }
 
+/// Adds count * reference to the mixture at the points.
+void add_reference(const ReferenceDensity& reference, Index count, const Population& z,
+                   const Eigen::VectorXd& log_prior, Eigen::VectorXd& log_mixture, int threads) {
+  const Eigen::VectorXd density = log_density(reference, z, log_prior, threads);
+  const double log_count = portable_math::log(static_cast<double>(count));
+  for (Index i = 0; i < density.size(); ++i) {
+    const double added = log_count + density[i];
+    const double larger = std::max(log_mixture[i], added);
+    const double smaller = std::min(log_mixture[i], added);
+    log_mixture[i] = larger + portable_math::log(1.0 + portable_math::exp(smaller - larger));
+  }
+}
+
+Index feasible_draws(const ReferenceDraws& draws) {
+  return (draws.log_likelihood.array() > -infinity).count();
+}
+
+/// Points whose weights sum to their effective size.
+WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double effective) {
+  WeightedPoints data{draws.z, Eigen::VectorXd::Zero(draws.z.rows()), {}};
+  if (effective > 0.0) {
+    data.weights =
+        normalised_weights(as_span(log_weight)) * (effective / static_cast<double>(draws.z.rows()));
+  }
+  for (Index i = 0; i < draws.z.rows(); ++i) {
+    data.groups.push_back(i);
+  }
+  return data;
+}
+
+/// The weights for L^beta p.
+Eigen::VectorXd at_temperature(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double beta) {
+  Eigen::VectorXd tempered = log_weight;
+  for (Index i = 0; i < tempered.size(); ++i) {
+    if (draws.log_likelihood[i] > -infinity) {
+      tempered[i] -= (1.0 - beta) * draws.log_likelihood[i];
+    }
+  }
+  return tempered;
+}
+
 }  // namespace
 
-void ReferenceDraws::append(const ReferenceDraws& other) {
-  z = stacked(z, other.z);
-  log_prior = stacked(log_prior, other.log_prior);
-  log_likelihood = stacked(log_likelihood, other.log_likelihood);
+void ReferenceDraws::append(const ReferenceDraws& other, int threads) {
+  if (references.empty()) {
+    *this = other;
+    return;
+  }
+  ReferenceDraws added = other;
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    add_reference(references[r], counts[r], added.z, added.log_prior, added.log_mixture, threads);
+  }
+  for (std::size_t r = 0; r < other.references.size(); ++r) {
+    add_reference(other.references[r], other.counts[r], z, log_prior, log_mixture, threads);
+  }
+  z = stacked(z, added.z);
+  log_prior = stacked(log_prior, added.log_prior);
+  log_likelihood = stacked(log_likelihood, added.log_likelihood);
+  log_mixture = stacked(log_mixture, added.log_mixture);
   references.insert(references.end(), other.references.begin(), other.references.end());
   counts.insert(counts.end(), other.counts.begin(), other.counts.end());
 }
@@ -41,9 +98,12 @@ ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity&
       .z = sample(reference, problem.prior, n, key, stage, threads),
       .log_prior = {},
       .log_likelihood = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN()),
+      .log_mixture = {},
       .references = {reference},
       .counts = {n}};
   draws.log_prior = log_prior_density(draws.z, problem.prior, threads);
+  draws.log_mixture = log_density(reference, draws.z, draws.log_prior, threads).array() +
+                      portable_math::log(static_cast<double>(n));
   const Population x = from_unbounded(draws.z, problem.prior);
   for_each_block(n, rows_per_call(n, threads, batch_rows), threads, [&](Index, Index begin, Index end) {
     problem.log_likelihood(x.middleRows(begin, end - begin),
@@ -53,65 +113,92 @@ ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity&
   return draws;
 }
 
-Eigen::VectorXd log_weights(const ReferenceDraws& draws, int threads) {
-  const Index n = draws.z.rows();
-  Eigen::VectorXd largest;
-  std::vector<Eigen::VectorXd> densities;
+Eigen::VectorXd log_weights(const ReferenceDraws& draws) {
+  const double log_n = portable_math::log(static_cast<double>(draws.z.rows()));
+  return (draws.log_prior + draws.log_likelihood - draws.log_mixture).array() + log_n;
+}
+
+Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
+                                     const Eigen::VectorXd& log_prior, int threads) {
+  constexpr double nearly_nothing = -1e300;
+  Eigen::VectorXd log_mixture = Eigen::VectorXd::Constant(z.rows(), nearly_nothing);
   for (std::size_t r = 0; r < draws.references.size(); ++r) {
-    densities.push_back(log_density(draws.references[r], draws.z, draws.log_prior, threads));
-    largest = r == 0 ? densities[0] : Eigen::VectorXd(largest.cwiseMax(densities[r]));
+    add_reference(draws.references[r], draws.counts[r], z, log_prior, log_mixture, threads);
   }
-  Eigen::VectorXd result = draws.log_prior + draws.log_likelihood;
-  for (Index i = 0; i < n; ++i) {
-    double sum = 0.0;
-    for (std::size_t r = 0; r < densities.size(); ++r) {
-      sum += static_cast<double>(draws.counts[r]) / static_cast<double>(n) *
-             portable_math::exp(densities[r][i] - largest[i]);
+  return log_mixture;
+}
+
+WeightedPoints fit_points(const ReferenceDraws& draws, double fewest) {
+  const Eigen::VectorXd log_weight = log_weights(draws);
+  const double target = std::min(fewest, 0.5 * static_cast<double>(feasible_draws(draws)));
+  const double power = tempering_power(as_span(log_weight), target);
+  return weighted(draws, power * log_weight,
+                  power > 0.0 ? effective_sample_size(as_span(log_weight), power) : 0.0);
+}
+
+TemperedPoints tempered_points(const ReferenceDraws& draws, double target) {
+  constexpr Index fewest_feasible = 10;
+  constexpr double least_beta = 1e-30;
+  const Eigen::VectorXd log_weight = log_weights(draws);
+  const Index feasible = feasible_draws(draws);
+  if (feasible < fewest_feasible) {
+    return {weighted(draws, log_weight, 0.0)};
+  }
+  const double wanted = std::min(target, 0.5 * static_cast<double>(feasible));
+  const auto effective_at = [&](double beta) {
+    return effective_sample_size(as_span(at_temperature(draws, log_weight, beta)), 1.0);
+  };
+  double low = effective_at(1.0) >= wanted ? 1.0 : 0.0;
+  double high = 1.0;
+  while (low == 0.0 && high > least_beta) {
+    (effective_at(0.1 * high) >= wanted ? low : high) = 0.1 * high;
+  }
+  for (int i = 0; i < 20 && low < 1.0; ++i) {
+    const double middle = 0.5 * (low + high);
+    (effective_at(middle) >= wanted ? low : high) = middle;
+  }
+  const Eigen::VectorXd tempered = at_temperature(draws, log_weight, low);
+  const double effective = effective_sample_size(as_span(tempered), 1.0);
+  return {weighted(draws, tempered, effective), low, effective};
+}
+
+Search search_posterior(const Problem& problem, const SearchOptions& options, const StreamKey& key) {
+  constexpr Index rounds = 15;
+  constexpr double tempered_below = 0.3;
+  Search search;
+  const Index each = std::max<Index>(options.evaluations / (rounds + 1), 1);
+  std::uint32_t stage = 0;
+  const auto draw = [&](const ReferenceDensity& reference, Index n) {
+    search.draws.append(
+        draw_and_evaluate(problem, reference, n, key, stage++, options.threads, options.batch_rows),
+        options.threads);
+  };
+  const ReferenceDensity prior{.prior_share = 1.0};
+  draw(prior, std::min(2 * each, options.evaluations));
+  for (;;) {
+    TemperedPoints tempered = tempered_points(search.draws, options.target);
+    const bool is_fitted = tempered.beta > 0.0;
+    if (is_fitted) {
+      search.fit = fit_mixture(tempered.points, options.fit, key, stage);
+      if (tempered.beta < tempered_below) {
+        search.tempered = search.fit;
+      }
     }
-    result[i] -= largest[i] + portable_math::log(sum);
-  }
-  return result;
-}
-
-WeightedPoints fit_points(const Result& result, const Prior& prior) {
-  constexpr double independent_share = 0.1;
-  const Index n = result.final.points.rows();
-  WeightedPoints data{
-      to_unbounded(result.final.points, prior), Eigen::VectorXd::Constant(n, independent_share), {}};
-  for (Index i = 0; i < n; ++i) {
-    data.groups.push_back(i % result.final.genealogy.chains);
-  }
-  return data;
-}
-
-WeightedPoints fit_points(const ReferenceDraws& draws, int threads) {
-  const auto n = static_cast<double>(draws.z.rows());
-  Eigen::VectorXd log_weight = log_weights(draws, threads);
-  const double fewest = std::min({std::max(100.0, 20.0 * static_cast<double>(draws.z.cols())), 0.5 * n});
-  const double power = tempering_power(as_span(log_weight), fewest);
-  WeightedPoints data{draws.z, Eigen::VectorXd::Zero(draws.z.rows()), {}};
-  if (power > 0.0) {
-    const double effective = effective_sample_size(as_span(log_weight), power);
-    for (double& value : log_weight) {
-      value *= power;
+    tempered.points = {};
+    search.rounds.push_back(std::move(tempered));
+    const bool is_enough = search.beta() == 1.0 &&
+                           effective_sample_size(as_span(log_weights(search.draws)), 1.0) >= options.enough;
+    const Index left = std::min(each, options.evaluations - search.draws.z.rows());
+    if (is_enough || left <= 0) {
+      break;
     }
-    data.weights = normalised_weights(as_span(log_weight)) * (effective / n);
+    draw(is_fitted ? ReferenceDensity{search.fit, options.prior_share} : prior, left);
   }
-  for (Index i = 0; i < draws.z.rows(); ++i) {
-    data.groups.push_back(i);
+  if (search.beta() == 0.0 && feasible_draws(search.draws) == 0) {
+    throw InfeasiblePriorError("none of the " + std::to_string(search.draws.z.rows()) +
+                               " draws from the prior is feasible: the model excludes every one");
   }
-  return data;
-}
-
-WeightedPoints join(const WeightedPoints& a, const WeightedPoints& b) {
-  WeightedPoints all{stacked(a.points, b.points), stacked(a.weights, b.weights), a.groups};
-  // An even shift keeps the parity that the halves of a fit go by.
-  const Index shift =
-      a.groups.empty() ? 0 : (*std::max_element(a.groups.begin(), a.groups.end()) / 2 + 1) * 2;
-  for (const Index group : b.groups) {
-    all.groups.push_back(group + shift);
-  }
-  return all;
+  return search;
 }
 
 }  // namespace tmcmc

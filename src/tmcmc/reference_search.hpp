@@ -1,5 +1,5 @@
 /// \file
-/// Population Monte Carlo: a reference density that is drawn from, weighed and fitted again.
+/// Population Monte Carlo: draws from reference densities, their weights, and the search for the posterior by them.
 #pragma once
 
 #include "tmcmc/importance.hpp"
@@ -14,11 +14,12 @@ struct ReferenceDraws {
   Population z;                              ///< n x d
   Eigen::VectorXd log_prior;                 ///< n, log_prior_density(z, prior)
   Eigen::VectorXd log_likelihood;            ///< n
-  std::vector<ReferenceDensity> references;  ///< the densities, in the order of their draws
-  std::vector<Index> counts;                 ///< draws from each; their sum is n
+  Eigen::VectorXd log_mixture;               ///< n, log(sum_r n_r q_r): the densities that all draws are from
+  std::vector<ReferenceDensity> references;  ///< q_r, in the order of their draws
+  std::vector<Index> counts;                 ///< n_r, draws from each; their sum is n
 
-  /// Adds draws and their log-likelihoods.
-  void append(const ReferenceDraws& other);
+  /// Adds draws; each density is evaluated at the draws of the other side.
+  void append(const ReferenceDraws& other, int threads = 1);
 };
 
 /// n draws from a frozen density.
@@ -31,17 +32,55 @@ struct ReferenceDraws {
 /// log(L p) - log(sum_r n_r q_r / n): the weights of the deterministic mixture of all densities that were drawn from (Owen
 /// and Zhou 2000; Cornuet, Marin, Mira and Robert 2012). Where the later densities were fitted to the earlier draws, the
 /// mean weight is consistent but not unbiased.
-[[nodiscard]] Eigen::VectorXd log_weights(const ReferenceDraws& draws, int threads = 1);
+[[nodiscard]] Eigen::VectorXd log_weights(const ReferenceDraws& draws);
 
-/// The population of a finished run in unbounded coordinates, for a fit. Its states depend on each other: ten of them count
-/// as one independent point. Groups are chains.
-[[nodiscard]] WeightedPoints fit_points(const Result& result, const Prior& prior);
+/// log(sum_r n_r q_r) at other points: the expected number of the draws per volume.
+/// \param log_prior  log_prior_density(z, prior)
+[[nodiscard]] Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
+                                                   const Eigen::VectorXd& log_prior, int threads = 1);
 
-/// The draws with their weights, for a fit: these sum to the effective size. Where that is below 100, 20 d or half of the
-/// draws (the least of them), the weights are raised to the power in (0, 1] at which it is reached.
-[[nodiscard]] WeightedPoints fit_points(const ReferenceDraws& draws, int threads = 1);
+/// The draws with their weights, for a fit: these sum to the effective size. Where that is below `fewest` or half of the
+/// feasible draws, the weights are raised to the power in (0, 1] at which it is reached.
+[[nodiscard]] WeightedPoints fit_points(const ReferenceDraws& draws, double fewest);
 
-/// All points of both. Groups stay apart.
-[[nodiscard]] WeightedPoints join(const WeightedPoints& a, const WeightedPoints& b);
+/// Draws weighed for L^beta p in place of the posterior.
+struct TemperedPoints {
+  WeightedPoints points;               ///< their weights sum to the effective size
+  double beta = 0.0;                   ///< 0 where fewer than 10 draws are feasible
+  double effective_sample_size = 0.0;  ///< of the weights at beta
+};
+/// The largest beta in (0, 1] at which the effective size is at least `target` (or half of the feasible draws): the criterion
+/// of TMCMC, for the draws of all rounds so far in place of one population.
+[[nodiscard]] TemperedPoints tempered_points(const ReferenceDraws& draws, double target);
+
+/// How a search spends its evaluations.
+struct SearchOptions {
+  Index evaluations = 5000;    ///< at most
+  double target = 100.0;       ///< effective size of the tempered weights that chooses beta
+  double enough = 1000.0;      ///< effective size at beta = 1 that ends the search
+  double prior_share = 0.02;   ///< of the draws of a round
+  MixtureFitOptions fit = {};  ///< of the densities
+  int threads = 1;             ///< over the rows of a batch
+  Index batch_rows = 2048;     ///< see Options::batch_rows
+};
+
+/// A search that is done.
+struct Search {
+  ReferenceDraws draws;     ///< of all rounds, the first of them from the prior
+  StudentMixture fit;       ///< of the last round
+  StudentMixture tempered;  ///< of the last round with beta below 0.3; without components if there was none
+  std::vector<TemperedPoints> rounds;  ///< without their points
+  [[nodiscard]] double beta() const {
+    return rounds.empty() ? 0.0 : rounds.back().beta;
+  }  ///< of the last round
+};
+
+/// Tempered population Monte Carlo from the prior (Cappe, Guillin, Marin and Robert 2004; Cornuet, Marin, Mira and Robert
+/// 2012): beta is chosen for the draws so far, a mixture is fitted to their weights for L^beta p and drawn from, until beta is 1 and
+/// the draws suffice, or the evaluations are spent. Unlike a population that is resampled, the draws of all rounds keep their
+/// weights, so that a mode that was met once cannot be lost.
+/// \throws SamplingError as draw_and_evaluate; InfeasiblePriorError if no draw is feasible.
+[[nodiscard]] Search search_posterior(const Problem& problem, const SearchOptions& options,
+                                      const StreamKey& key);
 
 }  // namespace tmcmc

@@ -1,6 +1,7 @@
 // A posterior measured by independent draws from a fitted density.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "errors/invalid_value.hpp"
 #include "problems.hpp"
@@ -139,12 +140,58 @@ TEST_CASE("A wrong log-evidence comes with a warning where a spike holds most of
   CHECK(wrong == 0);
 }
 
-TEST_CASE("In many dimensions the weights degenerate, and a warning says so") {
+TEST_CASE("Where the searches do not come near the posterior, TMCMC takes over, with a warning") {
   const Problem wide{problems::by_rows([](const auto& x) { return -0.5 * x.squaredNorm(); }),
                      BoxPrior(Eigen::VectorXd::Constant(40, -10.0), Eigen::VectorXd::Constant(40, 10.0))};
-  const auto measured = run_with_independent_draws(wide, {.evaluations = 10000}, {.seed = 7});
-  CHECK(warns(measured, MeasurementWarningKind::low_overlap));
-  CHECK(measured.evaluations == 10000);
+  const auto measured = run_with_independent_draws(wide, {.evaluations = 6000}, {.seed = 7});
+  CHECK(warns(measured, MeasurementWarningKind::search_not_completed));
+  REQUIRE(measured.tmcmc.has_value());
+  CHECK(measured.points == measured.tmcmc->final.points);
+  CHECK(measured.evidence.log_evidence == measured.tmcmc->evidence.log_evidence);
+  CHECK(measured.evaluations <= 6000);
+}
+
+TEST_CASE("Either rule of the paper chooses the same temperatures where the targets agree") {
+  IndependentDraws settings{.evaluations = 8000};
+  const auto by_size = run_with_independent_draws(normal(), settings, {.seed = 8});
+  settings.criterion = coefficient_of_variation_rule(1.0);
+  const auto by_variation = run_with_independent_draws(normal(), settings, {.seed = 8});
+  CHECK(by_size.points == by_variation.points);
+  settings.criterion = effective_sample_size_rule(0.8);
+  CHECK(run_with_independent_draws(normal(), settings, {.seed = 8}).points(0, 0) != by_size.points(0, 0));
+}
+
+TEST_CASE("Two modes in ten dimensions keep their masses") {
+  const Problem two{
+      problems::by_rows([](const auto& x) {
+        const double a = (x.array() - 4.0).square().sum() / 0.25;
+        const double b = (x.array() + 4.0).square().sum() / 0.25;
+        const double larger = std::max(-0.5 * a, -0.5 * b);
+        return larger + std::log(0.75 * std::exp(-0.5 * a - larger) + 0.25 * std::exp(-0.5 * b - larger));
+      }),
+      BoxPrior(Eigen::VectorXd::Constant(10, -10.0), Eigen::VectorXd::Constant(10, 10.0))};
+  const auto measured = run_with_independent_draws(two, {}, {.seed = 9});
+  double mass = 0.0;
+  for (Index i = 0; i < measured.points.rows(); ++i) {
+    mass += measured.points(i, 0) > 0.0 ? measured.weights[i] : 0.0;
+  }
+  CHECK(mass / static_cast<double>(measured.points.rows()) == Approx(0.75).margin(0.05));
+}
+
+TEST_CASE("A model that excludes nearly all of the prior is measured, one that excludes all is refused") {
+  const auto inside = [](double radius) {
+    return Problem{problems::by_rows([=](const auto& x) {
+                     return x.squaredNorm() < radius * radius ? 0.0
+                                                              : -std::numeric_limits<double>::infinity();
+                   }),
+                   BoxPrior(Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(1.0, 1.0))};
+  };
+  const auto measured = run_with_independent_draws(inside(0.1), {.evaluations = 20000}, {.seed = 10});
+  const double exact = std::log(std::acos(-1.0) * 0.01 / 4.0);
+  CHECK(measured.evidence.log_evidence == Approx(exact).margin(5.0 * measured.evidence.standard_error));
+  CHECK(measured.evidence.standard_error < 0.1);
+  CHECK_THROWS_AS(run_with_independent_draws(inside(0.0), {.evaluations = 3000}, {.seed = 10}),
+                  InfeasiblePriorError);
 }
 
 TEST_CASE("A setting out of range is refused by name") {
@@ -158,7 +205,7 @@ TEST_CASE("A setting out of range is refused by name") {
   };
   CHECK(field_of({}).empty());
   CHECK(field_of({.evaluations = 1999}) == "independent_draws.evaluations");
-  CHECK(field_of({.first_pass_share = 0.6}) == "independent_draws.first_pass_share");
+  CHECK(field_of({.search_share = 0.6}) == "independent_draws.search_share");
   CHECK(field_of({.prior_share = 1.0}) == "independent_draws.prior_share");
   CHECK(field_of({.fit = {.degrees_of_freedom = 7}}) == "independent_draws.fit.degrees_of_freedom");
   CHECK(field_of({.threads = 0}) == "independent_draws.threads");

@@ -224,7 +224,7 @@ void ProposalLanes::shift(const MetropolisKernel& kernel) {
 }
 
 void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
-                            const RowIds& rows, std::size_t count, Eigen::VectorXd& log_prior) {
+                            const RowIds& rows, std::size_t count) {
   log_correction_.fill(0.0);
   for (Index j = 0; j < dimension_; ++j) {
     Lanes& x = x_[static_cast<std::size_t>(j)];
@@ -234,17 +234,7 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, 
     }
   }
   if (!prior.is_box()) {
-    bool known = true;
-    for (std::size_t i = 0; i < count; ++i) {
-      log_prior_[i] = log_prior[static_cast<Index>(rows[i])];
-      known = known && !std::isnan(log_prior_[i]);
-    }
-    if (!known) {
-      prior.log_kernel(columns_, count, log_prior_.data());
-      for (std::size_t i = 0; i < count; ++i) {
-        log_prior[static_cast<Index>(rows[i])] = log_prior_[i];
-      }
-    }
+    prior.log_kernel(columns_, count, log_prior_.data());
   }
   if (kernel.coordinates == Coordinates::unbounded) {
     for (Index j = 0; j < dimension_; ++j) {
@@ -282,17 +272,18 @@ std::size_t ProposalLanes::check(const Prior& prior, std::size_t count) {
 }
 
 void ProposalLanes::add_prior_ratio(const Prior& prior, std::size_t count) {
-  prior.log_kernel(columns_, count, proposed_log_prior_.data());
+  Lanes proposed;
+  prior.log_kernel(columns_, count, proposed.data());
   for (std::size_t i = 0; i < count; ++i) {
     if (inside_[i] == 0.0) {
       continue;
     }
-    if (!(proposed_log_prior_[i] > -std::numeric_limits<double>::infinity())) {
+    if (!(proposed[i] > -std::numeric_limits<double>::infinity())) {
       inside_[i] = 0.0;
     } else if (!std::isfinite(log_prior_[i])) {
       throw SamplingError("the prior has drawn a point where its density is zero");
     } else {
-      log_correction_[i] += proposed_log_prior_[i] - log_prior_[i];
+      log_correction_[i] += proposed[i] - log_prior_[i];
     }
   }
 }

@@ -1,0 +1,53 @@
+/// \file
+/// The sampler on problems with known evidence, over many runs at a given number of evaluations.
+#pragma once
+
+#include "replication/benchmark_problems.hpp"
+#include "replication/study.hpp"
+
+namespace replication {
+
+/// The samplers that the benchmark compares, each at the same number of evaluations.
+enum class BenchmarkSampler {
+  published,  ///< the paper's, N_eff = N/2 and N = evaluations / 31: 31 000 evaluations are ten of its stages
+  recommended,       ///< tmcmc::recommended_options() as far as TMCMC goes
+  independent_draws  ///< found by TMCMC, measured by independent draws
+};
+
+/// Name as the tables have it.
+[[nodiscard]] const char* describe(BenchmarkSampler sampler);
+
+/// What one run says of the log-evidence.
+struct BenchmarkRun {
+  double error = 0.0;            ///< log-evidence minus the exact one
+  double standard_error = 0.0;   ///< as stated
+  double effective_draws = 0.0;  ///< independent draws that the sample is worth; least over the parameters
+  double worst_mode_mass = 0.0;  ///< largest error of the mass of a mode
+  bool warned = false;           ///< there is a warning
+  bool finished = true;          ///< the posterior was reached
+};
+
+/// Errors of the runs. Those of runs that have not reached the posterior count in `unfinished` and `warned` alone.
+struct BenchmarkScore {
+  double rms_error = 0.0;                ///< of the log-evidence
+  double bias = 0.0;                     ///< mean error of the log-evidence
+  double rms_z = 0.0;                    ///< of error / stated standard error
+  double worst_z = 0.0;                  ///< largest |error| / stated standard error
+  double worst_z_without_warning = 0.0;  ///< the same of the runs without a warning
+  double warned = 0.0;                   ///< share of the runs with a warning
+  double effective_draws = 0.0;          ///< mean over the runs
+  double unfinished = 0.0;               ///< share of the runs that ended before beta = 1 or with an error
+  double mode_masses_found = 0.0;        ///< share of the runs whose mode masses are all within 0.05
+};
+
+/// Runs 0 to runs - 1 of the seed, with `arm` as their stream's; the result does not depend on the threads.
+/// \throws errors::InvalidValue for too few evaluations.
+[[nodiscard]] std::vector<BenchmarkRun> benchmark_runs(const BenchmarkProblem& problem,
+                                                       BenchmarkSampler sampler, tmcmc::Index evaluations,
+                                                       std::uint32_t arm, const StudyOptions& options,
+                                                       const RunObserver& observer = {});
+
+/// \throws errors::InvalidValue if there is no run.
+[[nodiscard]] BenchmarkScore score(const std::vector<BenchmarkRun>& runs);
+
+}  // namespace replication

@@ -1,0 +1,98 @@
+// Problems with known evidence, and what is measured on them.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "errors/invalid_value.hpp"
+#include "replication/benchmark_scores.hpp"
+
+using namespace replication;
+
+namespace {
+
+const BenchmarkProblem& named(const std::vector<BenchmarkProblem>& problems, const std::string& name) {
+  for (const auto& p : problems) {
+    if (p.name == name) {
+      return p;
+    }
+  }
+  throw std::out_of_range(name);
+}
+
+/// Mean likelihood over a grid of midpoints of the box, which has two or three dimensions.
+double log_mean_likelihood(const tmcmc::Problem& problem, tmcmc::Index points_each) {
+  const tmcmc::Index d = problem.prior.dimension();
+  const auto n = static_cast<tmcmc::Index>(std::pow(points_each, d) + 0.5);
+  tmcmc::Population x(n, d);
+  for (tmcmc::Index i = 0; i < n; ++i) {
+    tmcmc::Index rest = i;
+    for (tmcmc::Index j = 0; j < d; ++j) {
+      const double part = (static_cast<double>(rest % points_each) + 0.5) / static_cast<double>(points_each);
+      x(i, j) = problem.prior.lower()[j] + part * (problem.prior.upper()[j] - problem.prior.lower()[j]);
+      rest /= points_each;
+    }
+  }
+  Eigen::VectorXd values(n);
+  problem.log_likelihood(x, values);
+  const double largest = values.maxCoeff();
+  return largest + std::log((values.array() - largest).exp().mean());
+}
+
+}  // namespace
+
+TEST_CASE("The stated log-evidence of problems in two dimensions is that of a fine grid") {
+  const auto problems = closed_form_problems();
+  for (const char* name :
+       {"Gaussian, 2-D", "banana, 2-D", "five narrow modes, 2-D", "spike and slab, 2-D", "corner, 2-D"}) {
+    const auto& p = named(problems, name);
+    INFO(name);
+    CHECK(log_mean_likelihood(p.problem, 2000) == Approx(p.log_evidence).margin(2e-3));
+  }
+}
+
+TEST_CASE("The evidence of a frame by change of variables is that of a grid over its stiffnesses") {
+  const auto problems = structural_problems();
+  auto p = named(problems, "frame, wide priors");
+  // The same likelihood on the part of the box that holds its modes.
+  const double part = 4.0;
+  p.problem.prior = tmcmc::Prior(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(part));
+  const double shift = 2.0 * std::log(1000.0 / part);
+  CHECK(log_mean_likelihood(p.problem, 2000) - shift == Approx(p.log_evidence).margin(2e-3));
+}
+
+TEST_CASE("A point belongs to the mode that it is nearest to") {
+  const auto problems = closed_form_problems();
+  const auto& two = named(problems, "two modes, 4-D");
+  CHECK(two.mode_of(Eigen::RowVectorXd::Constant(4, 3.0)) == 0);
+  CHECK(two.mode_of(Eigen::RowVectorXd::Constant(4, -3.0)) == 1);
+  CHECK(two.mode_masses == std::vector<double>{0.75, 0.25});
+}
+
+TEST_CASE("A score counts errors, warnings, modes and runs that did not finish") {
+  const auto s = score({{.error = 0.3, .standard_error = 0.1, .effective_draws = 10, .warned = true},
+                        {.error = -0.1, .standard_error = 0.1, .effective_draws = 30, .worst_mode_mass = 0.2},
+                        {.warned = true, .finished = false}});
+  CHECK(s.rms_error == Approx(std::sqrt(0.05)));
+  CHECK(s.bias == Approx(0.1));
+  CHECK(s.rms_z == Approx(std::sqrt(5.0)));
+  CHECK(s.worst_z == Approx(3.0));
+  CHECK(s.worst_z_without_warning == Approx(1.0));
+  CHECK(s.warned == Approx(2.0 / 3.0));
+  CHECK(s.unfinished == Approx(1.0 / 3.0));
+  CHECK(s.effective_draws == Approx(20.0));
+  CHECK(s.mode_masses_found == Approx(0.5));
+  CHECK_THROWS_AS(score({}), errors::InvalidValue);
+}
+
+TEST_CASE("Each sampler runs on a problem at its evaluations, the same for any number of threads") {
+  const auto problems = closed_form_problems();
+  const auto& p = named(problems, "Gaussian, 2-D");
+  for (const auto sampler :
+       {BenchmarkSampler::published, BenchmarkSampler::recommended, BenchmarkSampler::independent_draws}) {
+    const auto one = benchmark_runs(p, sampler, 3000, 0, {.runs = 3, .threads = 1});
+    const auto two = benchmark_runs(p, sampler, 3000, 0, {.runs = 3, .threads = 2});
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      CHECK(one[i].error == two[i].error);
+      CHECK(std::fabs(one[i].error) < 6.0 * one[i].standard_error);
+    }
+  }
+}
