@@ -12,7 +12,6 @@ export CMAKE_FLAGS
 export MAKE_GOALS := $(MAKECMDGOALS)
 
 STEP = @tools/step "$^"
-
 .DEFAULT_GOAL := help
 .PHONY: help build all remake results figures paper compare clean README.md
 
@@ -29,7 +28,6 @@ help:
 	@sed -n 's/^#: //p' $(MAKEFILE_LIST)
 
 all: results figures paper README.md
-
 remake:
 	$(MAKE) -B all
 build:
@@ -53,8 +51,8 @@ $(AUDIT) &: $(TABLE1)
 	$(STEP) "$(AUDIT)" $(BIN)/table1_observations --observations $(TABLE1) --quiet --output $(GEN)/table1_observations.csv \
 	  --audit-output $(GEN)/table1_audit.csv --audit-summary-output $(GEN)/table1_audit_summary.csv
 
-$(GEN)/fig2_phase_angle.csv:
-	$(STEP) $@ $(BIN)/fig2_phase_angle --quiet --output $@
+$(GEN)/fig2_phase_angle.csv: $(TABLE1)
+	$(STEP) $@ $(BIN)/fig2_phase_angle --observations $< --quiet --output $@
 
 VALIDATION := $(addprefix $(GEN)/model_validation,.csv _errors.csv _posterior.csv)
 $(VALIDATION) &: $(TABLE1) $(PRIOR)
@@ -101,7 +99,7 @@ $(FLOOR) &: $(TABLE1) $(PRIOR)
 	$(STEP) "$(FLOOR)" $(BIN)/pbox_floor --observations $(TABLE1) --quiet --output $(GEN)/pbox_floor.csv \
 	  --pbox-output $(GEN)/pbox_floor_pbox.csv --summary-output $(GEN)/pbox_floor_summary.csv
 
-# Replicated studies, the verdicts and the readings: Figures 9 to 11. A study that was stopped goes on from its journal.
+# Replicated studies, the verdicts, the readings, other settings: Figures 9 to 11, 14. A study that was stopped goes on from its journal.
 $(GEN)/replicated_study.csv: $(TABLE1) $(PRIOR)
 	$(STEP) $@ $(BIN)/replicated_study --observations $(TABLE1) --studies $(STUDIES) --quiet --output $@
 
@@ -111,14 +109,20 @@ $(VERDICTS) &: $(GEN)/replicated_study.csv $(GEN)/sampling_study_runs.csv $(GEN)
 	  --claims $(PUB)/claims.csv --table3 $(TABLE3) --table4 $(TABLE4) --quiet --output $(GEN)/verdicts.csv \
 	  --markdown-output $(GEN)/verdicts.md --contrasts-output $(GEN)/contrasts.csv --statistics-output $(GEN)/verdict_statistics.csv
 
-NULL := $(addprefix $(GEN)/fig9_null_distributions,.csv _counts.csv _printed.csv)
+NULL := $(addprefix $(GEN)/fig9_null_distributions,.csv _counts.csv _printed.csv _pairs.csv)
 $(NULL) &: $(GEN)/replicated_study.csv $(PRINTED)
 	$(STEP) "$(NULL)" $(BIN)/fig9_null_distributions --replicated $(GEN)/replicated_study.csv --table3 $(TABLE3) \
 	  --table4 $(TABLE4) --quiet --output $(GEN)/fig9_null_distributions.csv \
-	  --counts-output $(GEN)/fig9_null_distributions_counts.csv --printed-output $(GEN)/fig9_null_distributions_printed.csv
+	  --counts-output $(GEN)/fig9_null_distributions_counts.csv --printed-output $(GEN)/fig9_null_distributions_printed.csv \
+	  --pairs-output $(GEN)/fig9_null_distributions_pairs.csv
 
 $(GEN)/readings.csv: $(PRINTED)
 	$(STEP) $@ $(BIN)/readings --observations $(TABLE1) --quiet --output $@
+
+FORENSICS := $(addprefix $(GEN)/forensics,.csv _pairs.csv _summary.csv)
+$(FORENSICS) &: $(GEN)/replicated_study.csv $(PRINTED)
+	$(STEP) "$(FORENSICS)" $(BIN)/forensics --observations $(TABLE1) --replicated $(GEN)/replicated_study.csv --quiet \
+	  --output $(GEN)/forensics.csv --pairs-output $(GEN)/forensics_pairs.csv --summary-output $(GEN)/forensics_summary.csv
 
 # What better moves buy: Figures 12 and 13.
 $(GEN)/cost_accuracy.csv: $(TABLE1) $(PRIOR)
@@ -147,7 +151,7 @@ compare: $(COMPARED) $(PRINTED)
 
 RESULTS := $(AUDIT) $(GEN)/fig2_phase_angle.csv $(VALIDATION) $(GEN)/least_squares_baseline.csv $(STUDY) $(OF_SAMPLES) \
   $(GEN)/table4_iteration_counts.csv $(GEN)/fig5_tempering.csv $(GEN)/fig4_areas_and_iterations.csv $(OF_TABLE1) $(EXACT) \
-  $(FLOOR) $(GEN)/replicated_study.csv $(VERDICTS) $(NULL) $(GEN)/readings.csv $(GEN)/cost_accuracy.csv $(CALIBRATION) \
+  $(FLOOR) $(GEN)/replicated_study.csv $(VERDICTS) $(NULL) $(GEN)/readings.csv $(FORENSICS) $(GEN)/cost_accuracy.csv $(CALIBRATION) \
   $(GEN)/benchmark_problems.csv $(COMPARISON)
 results: $(RESULTS)
 
@@ -158,26 +162,26 @@ figures: $(FIGURES)
 
 $(FIGURES): figures/%.pdf: figures/%.gp figures/style.gp figures/draw
 	$(STEP) "$@ figures/$*.png" figures/draw $* $(GEN) figures
-
 $(FIGURES:.pdf=.png): %.png: %.pdf
 
 figures/fig2_phase_angle.pdf: $(GEN)/fig2_phase_angle.csv $(TABLE1)
 figures/fig3_pboxes.pdf: $(GEN)/fig3_pboxes.csv $(GEN)/least_squares_baseline.csv
-figures/fig4_areas_and_iterations.pdf: $(GEN)/fig4_areas_and_iterations.csv
+figures/fig4_areas_and_iterations.pdf: $(GEN)/fig4_areas_and_iterations.csv $(GEN)/compare_published.csv
 figures/fig5_tempering.pdf: $(GEN)/fig5_tempering.csv
 figures/fig6_exact_posterior.pdf: $(addprefix $(GEN)/,exact_posterior_marginals.csv exact_posterior_histograms.csv least_squares_baseline.csv)
 figures/fig7_pbox_floor.pdf: $(GEN)/pbox_floor_pbox.csv $(GEN)/fig3_pboxes.csv
 figures/fig8_model_validation.pdf: $(GEN)/model_validation.csv $(GEN)/model_validation_errors.csv
-figures/fig9_null_distributions.pdf: $(GEN)/fig9_null_distributions.csv $(GEN)/fig9_null_distributions_printed.csv
+figures/fig9_null_distributions.pdf: $(addprefix $(GEN)/fig9_null_distributions,.csv _printed.csv _pairs.csv)
 figures/fig10_iteration_tables.pdf: $(GEN)/fig9_null_distributions_counts.csv
 figures/fig11_readings.pdf: $(GEN)/readings.csv $(TABLE3)
 figures/fig12_cost_accuracy.pdf: $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_summary.csv $(TABLE3)
 figures/fig13_calibration.pdf: $(GEN)/calibration_ranks.csv
+figures/fig14_forensics.pdf: $(GEN)/forensics_pairs.csv
 
 # ---------------------------------------------------------------- replication report, and the tables in the README
 
 # Every number in the report comes from the tables above, through the lists paper/values.csv and paper/tables.csv.
-LISTS := $(addprefix paper/,values.csv tables.csv measured.csv)
+LISTS := $(addprefix paper/,values.csv tables.csv measured.csv equations.csv)
 paper/generated/values.tex: tools/report_values $(LISTS) $(RESULTS) $(PRINTED) $(PUB)/stated_values.csv
 	$(STEP) $@ tools/report_values $@
 
@@ -187,7 +191,6 @@ paper/report.pdf: paper/generated/values.tex $(TEXT) $(LISTS) $(FIGURES) tools/c
 	$(STEP) $@ tools/build_report paper/generated figures $@
 
 paper: paper/report.pdf
-
 README.md: $(GEN)/compare_published.md $(GEN)/verdicts.md
 	@tools/splice $@ $^
 

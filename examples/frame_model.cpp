@@ -22,7 +22,8 @@ Model shear_frame(const ModelOptions& options) {
                                io::format_number(frame.observations().frequency_hz[i]));
   }
   const auto& names = FrameLikelihood::parameter_names();
-  return {names, experiments::read_prior(options.prior, names), frame, description, frame};
+  return {names, experiments::read_prior(options.prior, {.names = names, .nonnegative = true}), frame,
+          description, frame};
 }
 
 Model other_program(const ModelOptions& options) {
@@ -34,7 +35,8 @@ Model other_program(const ModelOptions& options) {
       storage::require_parameter_name(name);
     }
   };
-  auto [names, prior] = experiments::read_named_prior(options.prior, require_name);
+  tmcmc::Prior prior = experiments::read_prior(options.prior, {.names = {}, .require_name = require_name});
+  auto names = prior.names();
   models::Program program({options.command, names, options.timeout_seconds});
   std::string description = "program with checksum " + storage::file_checksum(options.command);
   if (options.has_own_observations) {
@@ -54,6 +56,7 @@ Model make_model(const ModelOptions& options) {
 
 storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {
   storage::InferenceData data{.parameter_names = model.parameter_names,
+                              .parameter_units = model.prior.units(),
                               .samples = result.final.points,
                               .log_likelihood = result.final.log_likelihood};
   const auto stages = [&](const std::string& name, auto member) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "prior_file.hpp"
 #include "shear_frame.hpp"
 #include "storage/inference_data.hpp"
 #include "tmcmc/sampler.hpp"
@@ -17,8 +18,8 @@ namespace examples {
 struct Model {
   /// One for each column of the points.
   std::vector<std::string> parameter_names;
-  /// Bounds in the same order.
-  tmcmc::BoxPrior prior;
+  /// Of the parameters in the same order.
+  tmcmc::Prior prior;
   /// Of a batch of points.
   tmcmc::LogLikelihood log_likelihood;
   /// One line that names all that the values depend on, for the checkpoint.
@@ -33,8 +34,8 @@ struct ModelOptions {
   std::string observations = {};
   /// Whether they are the reader's own, and not those of data/examples.
   bool has_own_observations = false;
-  /// Bounds of the parameters.
-  std::string prior = {};
+  /// Distributions of the parameters, and the correlations between them if there are any.
+  experiments::PriorFiles prior = {};
   /// Program that computes the log-likelihoods; empty: the shear frame.
   std::string command = {};
   /// Limit of one call of the program, s; 0: none.

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     program.be_silent();
   }
   ModelOptions model_options{.observations = example("frame_observations.csv"),
-                             .prior = example("frame_prior.csv")};
+                             .prior = {.marginals = example("frame_prior.csv"), .correlations = {}}};
   std::string netcdf_path, checkpoint_path;
   long evaluations = 31000;
   RunOptions run_options;
@@ -80,8 +80,14 @@ int main(int argc, char** argv) {
       "--observations", model_options.observations,
       "CSV with columns mode (1 or 2), frequency_hz. With --command: a file that the program reads; the "
       "checkpoint of a run with other contents is refused");
-  program.add_input("--prior", model_options.prior,
-                    "CSV with columns parameter, lower, upper. With --command: the parameters, of any names");
+  program.add_input(
+      "--prior", model_options.prior.marginals,
+      "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a column for each "
+      "argument. With --command: the parameters, of any names");
+  program.add_input(
+      "--prior-correlation", model_options.prior.correlations,
+      "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
+      "normal_score, and a column for each parameter; without it they are independent");
   program.add_number("--evaluations", evaluations, count(2600), "Budget of log-likelihoods");
   program.add_text("--command", model_options.command, "PROGRAM",
                    "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv");

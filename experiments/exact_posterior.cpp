@@ -110,8 +110,15 @@ int main(int argc, char** argv) {
     const auto posterior =
         exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior);
     const auto fit = estimation::fit_least_squares(observations, reading.physics);
-    const auto laplace =
-        estimation::laplace_approximation(observations, reading.physics, fit, bounds_of(prior));
+    estimation::LaplaceApproximation laplace;
+    if (prior.is_box()) {
+      laplace = estimation::laplace_approximation(observations, reading.physics, fit,
+                                                  bounds_of(prior, "the Laplace approximation"));
+    } else {  // its mode would not be that of the likelihood
+      laplace.mode.fill(std::numeric_limits<double>::quiet_NaN());
+      laplace.standard_deviation = laplace.mode;
+      laplace.log_evidence = laplace.mode[0];
+    }
     const double error = posterior.relative_error();
     const double exceedance = posterior.marginal(friction::friction_force).exceedance(threshold);
 
@@ -130,6 +137,10 @@ int main(int argc, char** argv) {
     program.report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {}\n",
                    posterior.log_evidence(), std::max(error, 1e-12),
                    or_undefined("{:.3f}", laplace.log_evidence));
+    if (!prior.is_box()) {
+      program.report(
+          "The Laplace approximation is that of uniform priors, and least squares know no prior.\n");
+    }
     for (const auto* block : {&fit.friction_force, &fit.natural_frequency}) {
       if (block->fitted_noise != estimation::FittedNoise::determined) {
         program.report("least squares of {}: the noise is undefined: {}\n",

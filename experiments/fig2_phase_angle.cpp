@@ -1,9 +1,10 @@
-// Figure 2: phase angle of the response over the frequency ratio (Eq. 21) for a friction force, and along Den
-// Hartog's boundary of continuous motion (Eq. 18), where phi = phi_lim(r). The measurements stand beside it
-// in the figure.
+// Figure 2: phase angle of the response over the frequency ratio (Eq. 21) for the stated friction force and for the
+// one that least squares fits to the observations, and along Den Hartog's boundary of continuous motion (Eq. 18), where
+// phi = phi_lim(r). The numerical data of Table 1 stand beside them in the figure.
 
 #include <cmath>
 
+#include "estimation/least_squares.hpp"
 #include "inputs.hpp"
 
 using namespace experiments;
@@ -12,16 +13,19 @@ int main(int argc, char** argv) {
   Program program("fig2_phase_angle",
                   "Phase angle over the frequency ratio, and Den Hartog's boundary (Figure 2).");
   PhysicsOptions physics;
+  InputFiles inputs;
   double friction_force = 1.086;
   double lowest = 0.05;
   double highest = 2.0;
   long points = 1951;
   program.add_output(
-      "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio");
+      "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio; "
+      "phase_fitted_deg and fitted_force_n by least squares");
   program.add_number("--friction-force", friction_force, non_negative(), "F_mu, N");
   program.add_number("--from", lowest, positive(), "Smallest frequency ratio");
   program.add_number("--to", highest, positive(), "Largest frequency ratio");
   program.add_number("--points", points, count(2, 1000000), "Points of the curves");
+  inputs.add_observations_to(program);
   physics.add_to(program);
 
   return program.run(argc, argv, [&] {
@@ -30,11 +34,10 @@ int main(int argc, char** argv) {
           fmt::format("--to: value '{}': expected a number above --from {}", highest, lowest));
     }
     const auto reading = physics.reading();
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(), std::vector<std::string>{"frequency_ratio", "phase_deg",
-                                                             "boundary_phase_deg", "limit_force_ratio"});
-    }
+    const auto fit = estimation::fit_least_squares(read_observations(inputs.observations), reading.physics);
+    const double fitted_force = std::stod(digits(fit.friction_force.estimate, 6));  // of Ceres
+    auto csv = open_csv(program.output(), {"frequency_ratio", "phase_deg", "boundary_phase_deg",
+                                           "limit_force_ratio", "phase_fitted_deg", "fitted_force_n"});
     double continuous_from = highest;
     double smallest_limit = std::numeric_limits<double>::infinity();
     for (long i = 0; i < points; ++i) {
@@ -49,7 +52,8 @@ int main(int argc, char** argv) {
       }
       smallest_limit = std::min(smallest_limit, r >= 0.6 ? c.limit_force_ratio : smallest_limit);
       if (csv) {
-        csv->row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio);
+        csv->row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio,
+                 friction::phase_deg(c, fitted_force / reading.physics.driving_force_n), fitted_force);
       }
     }
     io::commit_all(csv);

@@ -16,12 +16,14 @@ int main(int argc, char** argv) {
   std::string replicated = "data/generated/replicated_study.csv";
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");
-  std::string counts_output, printed_output;
+  std::string counts_output, printed_output, pairs_output;
   program.add_output("CSV: sampler, parameter, area, cumulative");
   program.add_file_output("--counts-output", counts_output,
                           "CSV: sampler, iterations, runs, share_of_studies, printed");
   program.add_file_output("--printed-output", printed_output,
                           "CSV: sampler, parameter, printed, low, high, p");
+  program.add_file_output("--pairs-output", pairs_output,
+                          "CSV: areas of the friction force under both samplers, a row a study");
   program.add_input("--replicated", replicated, "Studies written by replicated_study");
   program.add_input("--table3", table3, "Table 3 as printed");
   program.add_input("--table4", table4, "Table 4 as printed");
@@ -35,6 +37,12 @@ int main(int argc, char** argv) {
     auto counts_csv =
         open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});
     auto printed_csv = open_csv(printed_output, {"sampler", "parameter", "printed", "low", "high", "p"});
+    auto pairs_csv = open_csv(pairs_output, {"first", "second"});
+    const auto first = replication::studies_of(studies, printed.counts.front().sampler);
+    const auto second = replication::studies_of(studies, printed.counts.back().sampler);
+    for (std::size_t i = 0; pairs_csv && i < std::min(first.size(), second.size()); ++i) {
+      pairs_csv->row(first[i].areas[0], second[i].areas[0]);
+    }
     const auto null = null_of(studies, printed);
     for (const auto& v : replication::judge_areas(studies, printed.areas, null)) {
       const auto& parameter = parameter_columns[v.parameter];
@@ -88,6 +96,6 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < tests.size(); ++i) {
       report_test(i < printed.counts.size() ? printed.counts[i].sampler : "both", tests[i]);
     }
-    io::commit_all(csv, counts_csv, printed_csv);
+    io::commit_all(csv, counts_csv, printed_csv, pairs_csv);
   });
 }

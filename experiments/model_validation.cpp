@@ -134,7 +134,8 @@ int main(int argc, char** argv) {
     published_errors(program, errors, friction_force, driving_force, error_points);
     report_stick_slip(
         program, moments, likelihood.limit_friction_force_n(), posterior,
-        estimation::posterior_with_stick_slip(observations, likelihood, posterior, bounds_of(prior)));
+        estimation::posterior_with_stick_slip(observations, likelihood, posterior,
+                                              bounds_of(prior, "the posterior with stick-slip")));
     io::commit_all(csv, errors, moments);
   });
 }

@@ -1,5 +1,5 @@
-# Phase angle of the response over the frequency ratio: the printed measurements, the model at the stated friction
-# force, and Den Hartog's boundary, beyond which the motion is not continuous.
+# Phase angle of the response over the frequency ratio: the printed numerical data with their stated noise, the model at
+# the stated and at the fitted friction force, and Den Hartog's boundary, beyond which the motion is not continuous.
 width = 8.4
 height = 6.6
 load 'figures/style.gp'
@@ -9,6 +9,9 @@ observations = published.'/table1_observations.csv'
 # The phase jumps at r = 1, so each side of it is drawn for itself.
 below(name) = column('frequency_ratio') < 1 ? column(name) : NaN
 above(name) = column('frequency_ratio') > 1 ? column(name) : NaN
+
+stats curves using 'fitted_force_n' every ::0::0 nooutput name 'fit'
+fitted = fit_mean
 
 set lmargin at screen 0.15
 set rmargin at screen 0.975
@@ -29,8 +32,12 @@ plot curves using 'frequency_ratio':(below('boundary_phase_deg')):(180) with fil
      curves using 'frequency_ratio':'boundary_phase_deg' with lines ls BOUNDARY, \
      curves using 'frequency_ratio':(below('phase_deg')) with lines ls MODEL, \
      curves using 'frequency_ratio':(above('phase_deg')) with lines ls MODEL, \
-     observations using 'r_measured':'phase_deg' with points ls OBSERVED pt 7 lc rgb 'white', \
-     observations using 'r_measured':'phase_deg' with points ls OBSERVED, \
-     keyentry with points ls OBSERVED title 'Measurements (Table 1)', \
+     curves using 'frequency_ratio':(below('phase_fitted_deg')) with lines ls LEAST_SQUARES, \
+     curves using 'frequency_ratio':(above('phase_fitted_deg')) with lines ls LEAST_SQUARES, \
+     observations using 'r_measured':(column('phase_deg') - true_phase_noise_deg):(0):(2 * true_phase_noise_deg) \
+         with vectors heads size screen 0.008, 90 lc rgb 'black' lw 0.9, \
+     observations using 'r_measured':'phase_deg' with points pt 7 ps 0.28 lc rgb 'black', \
+     keyentry with yerrorbars lc rgb 'black' lw 0.9 pt 7 ps 0.28 title 'Numerical data (Table 1)', \
      keyentry with lines ls BOUNDARY title "Den Hartog’s boundary", \
-     keyentry with lines ls MODEL title sprintf('Model, {/:Italic F}_{/:Italic μ} = %.3f N', true_friction_force_n)
+     keyentry with lines ls MODEL title sprintf('Stated, {/:Italic F}_{/:Italic μ} = %.3f N', true_friction_force_n), \
+     keyentry with lines ls LEAST_SQUARES title sprintf('Fitted, {/:Italic F}_{/:Italic μ} = %.3f N', fitted)

@@ -4,6 +4,13 @@ height = 7.6
 load 'figures/style.gp'
 
 table = data.'/fig4_areas_and_iterations.csv'
+# Central 95 % of the replicated studies, behind our bars as whiskers.
+studies = data.'/compare_published.csv'
+spread(name, sampler, what) = \
+    strcol('table') eq 'Table 3' && strcol('column') eq name && strcol('row') eq sampler ? column(what) : NaN
+count_spread(sampler, what) = strcol('table') eq 'Table 4' && strcol('column') eq sampler ? column(what) : NaN
+place(sampler) = strcol('table') eq 'Table 4' && strcol('column') eq sampler ? column('row') : NaN
+set style line 20 lc rgb 'black' lw 0.9
 count(source, sampler) = strcol('panel') eq 'iterations' && strcol('source') eq source ? column(sampler) : NaN
 area(source, name, sampler) = \
     strcol('panel') eq 'area' && strcol('source') eq source && strcol('category') eq name ? column(sampler) : NaN
@@ -46,20 +53,23 @@ do for [panel = 1:2] {
            with boxxyerror fc rgb printed lw 0.6, \
        for [i = 1:2] table using (0):(i + bar / 2):(0):(area('reproduced', name, word(samplers, i))):(i):(i + bar) \
            with boxxyerror fc rgb colour(word(samplers, i)) lw 0.6, \
+       for [i = 1:2] studies using (spread(name, word(samplers, i), 'low')):(i + bar / 2): \
+           (spread(name, word(samplers, i), 'high') - column('low')):(0) with vectors heads size screen 0.004, 90 ls 20, \
        for [i = 1:2] table using (area('printed', name, word(samplers, i))):(i - bar / 2): \
            (shown(area('printed', name, word(samplers, i)))) with labels left offset 0.6, 0 font ',7.5', \
-       for [i = 1:2] table using (area('reproduced', name, word(samplers, i))):(i + bar / 2): \
-           (shown(area('reproduced', name, word(samplers, i)))) with labels left offset 0.6, 0 font ',7.5', \
+       for [i = 1:2] table using (0):(i + bar / 2): \
+           (shown(area('reproduced', name, word(samplers, i)))) with labels left offset 0.6, 0 font ',7.5' tc rgb 'white', \
        keyentry with boxes fc rgb printed lw 0.6 title 'Printed', \
-       keyentry with boxes fc rgb blue lw 0.6 title 'Reproduced, TMCMC', \
-       keyentry with boxes fc rgb vermillion lw 0.6 title 'Reproduced, TMCMC-II'
+       keyentry with boxes fc rgb blue lw 0.6 title 'Ours, TMCMC', \
+       keyentry with boxes fc rgb vermillion lw 0.6 title 'Ours, TMCMC-II', \
+       keyentry with lines ls 20 title '95 % of the studies'
 }
 
 # Iterations: vertical bars over the number of iterations, printed left of reproduced.
 set boxwidth bar
 set tmargin at screen 0.87
 set bmargin at screen 0.13
-set yrange [0:50]
+set yrange [0:52]
 set xrange [*:*]
 set offsets 0.15, 0.15, 0, 0
 set autoscale xfix
@@ -84,9 +94,11 @@ do for [panel = 3:4] {
   plot table using (column('category') - bar / 2):(count('printed', sampler)) with boxes fc rgb printed lw 0.6, \
        table using (column('category') + bar / 2):(count('reproduced', sampler)) with boxes \
            fc rgb colour(sampler) lw 0.6, \
+       studies using (place(sampler) + bar / 2):(count_spread(sampler, 'low')):(0): \
+           (count_spread(sampler, 'high') - column('low')) with vectors heads size screen 0.004, 90 ls 20, \
        table using (column('category') - bar / 2):(count('printed', sampler)):(shown(count('printed', sampler))) \
            with labels offset 0, 0.5 font ',7.5', \
-       table using (column('category') + bar / 2):(count('reproduced', sampler)):(shown(count('reproduced', sampler))) \
-           with labels offset 0, 0.5 font ',7.5'
+       table using (column('category') + bar * 1.05):(count('reproduced', sampler)): \
+           (shown(count('reproduced', sampler))) with labels left offset 0.15, 0 font ',7.5'
 }
 unset multiplot

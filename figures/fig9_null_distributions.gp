@@ -1,5 +1,6 @@
 # What a repetition of the study gives: empirical distribution functions of the p-box areas over the replicated studies,
-# for both samplers; below them the central 95 % of the studies and the printed value, with its two-sided p.
+# for both samplers; below them the central 95 % of the studies and the printed value, with its two-sided p; and the areas of
+# the friction force under both samplers jointly.
 # The steps of the functions are too fine to show: their tops are joined by lines.
 width = 17.4
 height = 9.0
@@ -7,6 +8,7 @@ load 'figures/style.gp'
 
 areas = data.'/fig9_null_distributions.csv'
 marks = data.'/fig9_null_distributions_printed.csv'
+pairs = data.'/fig9_null_distributions_pairs.csv'
 samplers = 'TMCMC TMCMC-II'
 own(i, name, what) = strcol('sampler') eq word(samplers, i) && strcol('parameter') eq name ? column(what) : NaN
 colour(i) = i == TMCMC ? blue : vermillion
@@ -20,20 +22,20 @@ do for [panel = 1:2] {
   if (panel == 1) {
     name = 'friction_force_n'
     set xrange [0.06:0.30]
-    set xtics 0.04
+    set xtics 0.06
     x_format = '%.2f'
     x_name = 'P-box area, friction force (N)'
-    set lmargin at screen 0.100
-    set rmargin at screen 0.525
+    set lmargin at screen 0.090
+    set rmargin at screen 0.360
     set ylabel 'Share of the studies' offset 0.5, 0
   } else {
     name = 'natural_frequency_hz'
     set xrange [0.0068:0.0198]
-    set xtics 0.002
+    set xtics 0.003
     x_format = '%.3f'
     x_name = 'P-box area, natural frequency (Hz)'
-    set lmargin at screen 0.558
-    set rmargin at screen 0.983
+    set lmargin at screen 0.385
+    set rmargin at screen 0.655
     unset ylabel
   }
 
@@ -46,8 +48,8 @@ do for [panel = 1:2] {
   set xtics format '' scale 0.5
   set grid xtics ytics
   unset xlabel
-  if (panel == 1) { set key at screen 0.5375, 0.995 center top maxrows 1 Left reverse samplen 2.2 width -3 }
-  set label 1 sprintf('(%s)', 'ab'[panel:panel]) at graph 0.02, 0.93 font 'Nimbus Sans:Bold,8.5' front
+  if (panel == 1) { set key at screen 0.5, 0.995 center top maxrows 1 Left reverse samplen 2.2 width -3 }
+  set label 1 sprintf('(%s)', 'ab'[panel:panel]) at graph 0.90, 0.07 font 'Nimbus Sans:Bold,8.5' front
   plot for [i = 1:2] marks using (own(i, name, 'printed')):(0):(0):(1) with vectors nohead ls i lw 0.6, \
        areas using 'area':(own(TMCMC, name, 'cumulative')) with lines lw 3 lc rgb wide, \
        areas using 'area':(own(TMCMC_II, name, 'cumulative')) with lines ls TMCMC_II lw 1.1, \
@@ -80,4 +82,26 @@ do for [panel = 1:2] {
   unset ytics
   set ytics
 }
+# Both samplers jointly: one point a study, the printed pair, and the line of equal areas.
+set lmargin at screen 0.755
+set rmargin at screen 0.985
+set tmargin at screen 0.905
+set bmargin at screen 0.130
+set border 3
+set logscale xy
+set xrange [0.065:0.30]
+set yrange [0.065:0.30]
+set xtics (0.07, 0.1, 0.15, 0.2, 0.3) format '%g' scale 0.5
+set ytics (0.07, 0.1, 0.15, 0.2, 0.3) format '%g' scale 0.5
+set grid xtics ytics
+set xlabel 'Area under TMCMC (N)' offset 0, 0.3
+set ylabel 'Area under TMCMC-II (N)' offset 0.6, 0
+set label 1 '(c)' at graph 0.90, 0.05 font 'Nimbus Sans:Bold,8.5' front
+stats marks using (own(1, 'friction_force_n', 'printed')) nooutput name 'first'
+stats marks using (own(2, 'friction_force_n', 'printed')) nooutput name 'second'
+set label 2 'printed' at first_mean, second_mean offset 0.1, 1.0 center font ',7.5' front
+set arrow 1 from 0.065, 0.065 to 0.30, 0.30 nohead back lc rgb grey lw 0.6
+plot pairs using 'first':'second' with points pt 7 ps 0.18 lc rgb '#88000000', \
+     '+' using (first_mean):(second_mean) every ::0::0 with points pt 5 ps 1.0 lc rgb 'white', \
+     '+' using (first_mean):(second_mean) every ::0::0 with points pt 4 ps 0.9 lw 1.4 lc rgb 'black'
 unset multiplot

@@ -8,6 +8,8 @@
 
 #include "errors/invalid_value.hpp"
 #include "friction/response.hpp"
+#include "portable_math/normal_quantile.hpp"
+#include "prior_file.hpp"
 
 namespace experiments {
 
@@ -24,25 +26,10 @@ std::string in_directory(const char* directory, const std::string& file) {
              : (std::filesystem::path(COMPANION_SOURCE_DIR) / here).string();
 }
 
-constexpr double smallest_bound = 1e-100;  // of the upper ones: the squares of noise levels are doubles
-constexpr double largest_bound = 1e100;    // likewise
-
 std::vector<double> ratios(const io::CsvTable& table, const char* column) {
   return checked(
       table, column, table.numbers(column), [](double r) { return r > 1e-4 && r < 1e6; },
       "a ratio between 1e-4 and 1e6");
-}
-
-/// Refuses bounds without numbers between them.
-void require_interval(const io::CsvTable& table, std::size_t row, double lower, double upper) {
-  if (!(lower < upper)) {
-    table.fail(row, "upper", "a number above the lower bound " + io::format_number(lower));
-  }
-  if (!(std::nextafter(lower, upper) < upper)) {
-    table.fail(
-        row, "upper",
-        fmt::format("a number above the lower bound {}, with others between them", io::format_number(lower)));
-  }
 }
 
 /// A value that is refused, with its place in the file of the prior. What is no regular file cannot be read a second time.
@@ -53,7 +40,7 @@ void require_interval(const io::CsvTable& table, std::size_t row, double lower, 
     const auto names = table.text("parameter");
     for (std::size_t row = 0; row < names.size(); ++row) {
       for (const char* side : {"lower", "upper"}) {
-        if (invalid.field() == names[row] + "." + side) {
+        if (table.has(side) && invalid.field() == names[row] + "." + side) {
           table.fail(row, side, invalid.expected());
         }
       }
@@ -72,10 +59,14 @@ void InputFiles::add_observations_to(Program& program) {
 
 void InputFiles::add_prior_to(Program& program) {
   program.add_read_file(published("table2_prior.csv"));  // what the reading starts from
+  program.add_input("--prior", prior,
+                    "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a "
+                    "column for each argument; "
+                    "without it Table 2 as the reading has it");
   program.add_input(
-      "--prior", prior,
-      "Bounds of the uniform prior: CSV with columns parameter, lower, upper; without it Table 2 as the "
-      "reading has it");
+      "--prior-correlation", prior_correlation,
+      "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
+      "normal_score, and a column for each parameter; without it they are independent");
 }
 
 std::string published(const std::string& file) {
@@ -111,86 +102,34 @@ friction::Observations read_observations(const std::string& path) {
   return o;
 }
 
-tmcmc::BoxPrior read_prior(const std::string& path) {
-  return read_prior(path, prior_rows);
+tmcmc::Prior read_prior(const std::string& path, const std::string& correlations) {
+  return read_prior(PriorFiles{path, correlations}, {.names = prior_rows, .nonnegative = true});
 }
 
-tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::string>& expected) {
-  const auto table = io::CsvTable::read(path);
-  table.require_columns({"parameter", "lower", "upper"});
-  const auto names = table.text("parameter");
-  require_once(table, names, "parameter", "each parameter once");
-  const auto lower = nonnegative_numbers(table, "lower");
-  const auto upper = table.numbers("upper");
-  std::vector<bool> seen(expected.size(), false);
-  Eigen::VectorXd low(static_cast<Eigen::Index>(expected.size()));
-  Eigen::VectorXd high = low;
-  for (std::size_t row = 0; row < names.size(); ++row) {
-    const auto found = std::find(expected.begin(), expected.end(), names[row]);
-    if (found == expected.end()) {
-      table.fail(
-          row, "parameter",
-          fmt::format("{} or {}", fmt::join(expected.begin(), expected.end() - 1, ", "), expected.back()));
-    }
-    require_interval(table, row, lower[row], upper[row]);
-    if (!(upper[row] >= smallest_bound && upper[row] <= largest_bound)) {
-      table.fail(row, "upper", "a number from 1e-100 to 1e100");
-    }
-    const auto j = static_cast<std::size_t>(found - expected.begin());
-    seen[j] = true;
-    low[static_cast<Eigen::Index>(j)] = lower[row];
-    high[static_cast<Eigen::Index>(j)] = upper[row];
-  }
-  for (std::size_t j = 0; j < seen.size(); ++j) {
-    if (!seen[j]) {
-      throw io::InputError({.path = path,
-                            .column = "'parameter'",
-                            .found = fmt::format("no row '{}'", expected[j]),
-                            .expected = fmt::format("one row for each of {}", fmt::join(expected, ", "))});
-    }
-  }
-  return {low, high};
-}
-
-NamedPrior read_named_prior(const std::string& path,
-                            const std::function<void(const std::string& name)>& require_name) {
-  const auto table = io::CsvTable::read(path);
-  table.require_columns({"parameter", "lower", "upper"});
-  auto names = table.text("parameter");
-  require_once(table, names, "parameter", "each parameter once");
-  const auto is_moderate = [](double x) { return std::abs(x) <= largest_bound; };
-  const std::string expected = "a number from -1e100 to 1e100";
-  const auto lower = checked(table, "lower", table.numbers("lower"), is_moderate, expected);
-  const auto upper = checked(table, "upper", table.numbers("upper"), is_moderate, expected);
-  for (std::size_t row = 0; row < names.size(); ++row) {
-    try {
-      require_name(names[row]);
-    } catch (const errors::InvalidValue& error) {
-      table.fail(row, "parameter", error.expected());
-    }
-    require_interval(table, row, lower[row], upper[row]);
-    if (!(upper[row] - lower[row] >= smallest_bound)) {
-      table.fail(
-          row, "upper",
-          fmt::format("a number at least 1e-100 above the lower bound {}", io::format_number(lower[row])));
-    }
-  }
-  const auto n = static_cast<Eigen::Index>(names.size());
-  return {std::move(names), {Eigen::VectorXd::Map(lower.data(), n), Eigen::VectorXd::Map(upper.data(), n)}};
-}
-
-tmcmc::BoxPrior prior_for(const InputFiles& inputs, const replication::Reading& reading) {
+tmcmc::Prior prior_for(const InputFiles& inputs, const replication::Reading& reading) {
   if (!inputs.prior.empty()) {
-    return read_prior(inputs.prior);
+    return read_prior(inputs.prior, inputs.prior_correlation);
   }
-  const tmcmc::BoxPrior table2 = read_prior(published("table2_prior.csv"));
-  Eigen::VectorXd lower = table2.lower();
-  lower[friction::natural_frequency] =
-      reading.natural_frequency_lower_hz.value_or(lower[friction::natural_frequency]);
-  return {lower, table2.upper()};
+  const std::string table2 = published("table2_prior.csv");
+  const tmcmc::Prior printed = read_prior(table2, inputs.prior_correlation);
+  if (!printed.is_box()) {
+    return printed;
+  }
+  std::vector<tmcmc::Parameter> parameters;
+  for (std::size_t p = 0; p < printed.names().size(); ++p) {
+    parameters.push_back({printed.names()[p], printed.units()[p], printed.marginals()[p]});
+  }
+  if (reading.natural_frequency_lower_hz) {
+    parameters[friction::natural_frequency].marginal = tmcmc::Marginal::uniform(
+        *reading.natural_frequency_lower_hz, printed.upper()[friction::natural_frequency]);
+  }
+  return tmcmc::Prior(std::move(parameters));
 }
 
-estimation::ParameterBounds bounds_of(const tmcmc::BoxPrior& prior) {
+estimation::ParameterBounds bounds_of(const tmcmc::Prior& prior, std::string_view what) {
+  if (!prior.is_box()) {
+    throw io::InputError(fmt::format("--prior: {} needs uniform priors, not {}", what, prior.text()));
+  }
   estimation::ParameterBounds bounds;
   for (std::size_t p = 0; p < bounds.size(); ++p) {
     const auto j = static_cast<Eigen::Index>(p);
@@ -199,11 +138,38 @@ estimation::ParameterBounds bounds_of(const tmcmc::BoxPrior& prior) {
   return bounds;
 }
 
+estimation::ParameterPriors quadrature_priors(const tmcmc::Prior& prior) {
+  if (!prior.is_independent()) {
+    throw io::InputError(
+        fmt::format("--prior: the exact posterior needs independent parameters, of which F_mu with its noise "
+                    "level and omega_n with "
+                    "its own can be integrated apart, not {}",
+                    prior.text()));
+  }
+  constexpr std::array levels = {1e-20, 1e-16, 1e-12, 1e-8, 1e-5, 1e-3, 0.02, 0.1, 0.3, 0.5};
+  estimation::ParameterPriors priors;
+  for (std::size_t p = 0; p < priors.size(); ++p) {
+    const tmcmc::Marginal& marginal = prior.marginals()[p];
+    auto& breaks = priors[p].breaks;
+    for (const double level : levels) {
+      breaks.push_back(marginal.quantile(level));
+      breaks.push_back(marginal.from_normal(-portable_math::normal_quantile(level)));
+    }
+    std::sort(breaks.begin(), breaks.end());
+    breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    priors[p].log_density = [marginal](double x) { return marginal.log_density(x); };
+  }
+  return priors;
+}
+
 estimation::ExactPosterior exact_posterior_for(const InputFiles& inputs,
                                                const friction::Likelihood& likelihood,
-                                               const tmcmc::BoxPrior& prior) {
+                                               const tmcmc::Prior& prior) {
   try {
-    return {likelihood, bounds_of(prior)};
+    if (!prior.is_box()) {
+      return {likelihood, quadrature_priors(prior)};
+    }
+    return {likelihood, bounds_of(prior, "the exact posterior")};
   } catch (const errors::InvalidValue& error) {
     if (inputs.prior.empty()) {  // Table 2 is valid: the observations leave no feasible force inside it
       throw io::InputError(fmt::format("{}: {}", inputs.observations, error.what()));

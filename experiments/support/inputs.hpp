@@ -34,7 +34,8 @@ using replication::require_runs_once;
 /// --observations and --prior.
 struct InputFiles {
   std::string observations;
-  std::string prior;  ///< empty: Table 2, with the reading's bound of the natural frequency
+  std::string prior;              ///< empty: Table 2, with the reading's bound of the natural frequency
+  std::string prior_correlation;  ///< empty: independent parameters
 
   void add_observations_to(Program& program);
   void add_prior_to(Program& program);
@@ -51,34 +52,26 @@ struct InputFiles {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
 
-/// Uniform prior in the form of table2_prior.csv: one row a parameter, columns parameter, lower, upper.
+/// The prior of the four parameters of the paper from a file (prior_file.hpp); none of them may be negative.
 /// \throws io::InputError naming file, line, column and value.
-[[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path);
-/// The same of parameters with other names, in their order; none may be negative.
-[[nodiscard]] tmcmc::BoxPrior read_prior(const std::string& path, const std::vector<std::string>& names);
-
-/// Bounds and the names of the parameters that they belong to, in the order of the file.
-struct NamedPrior {
-  std::vector<std::string> names;
-  tmcmc::BoxPrior prior;
-};
-
-/// A prior in the same form, of any parameters and with bounds of any sign.
-/// \param require_name  throws errors::InvalidValue for a name that a parameter must not have
-/// \throws io::InputError naming file, line, column and value.
-[[nodiscard]] NamedPrior read_named_prior(const std::string& path,
-                                          const std::function<void(const std::string& name)>& require_name);
+[[nodiscard]] tmcmc::Prior read_prior(const std::string& path, const std::string& correlations = {});
 
 /// The prior that the options ask for: a file of the user's as it stands; else Table 2 as the reading has it.
-[[nodiscard]] tmcmc::BoxPrior prior_for(const InputFiles& inputs, const replication::Reading& reading);
+[[nodiscard]] tmcmc::Prior prior_for(const InputFiles& inputs, const replication::Reading& reading);
 
-[[nodiscard]] estimation::ParameterBounds bounds_of(const tmcmc::BoxPrior& prior);
+/// The bounds of a uniform prior.
+/// \throws io::InputError for another prior, saying that `what` needs a uniform one
+[[nodiscard]] estimation::ParameterBounds bounds_of(const tmcmc::Prior& prior, std::string_view what);
+
+/// A prior of independent parameters as the quadrature takes it, with its quantiles as breaks.
+/// \throws io::InputError for parameters that are not independent
+[[nodiscard]] estimation::ParameterPriors quadrature_priors(const tmcmc::Prior& prior);
 
 /// The exact posterior under a prior that the inputs gave.
 /// \throws io::InputError if the prior holds no friction force with continuous motion or a bound that a density cannot
 ///         have, naming file, line, column and value of the prior; the file alone if it cannot be read again.
 [[nodiscard]] estimation::ExactPosterior exact_posterior_for(const InputFiles& inputs,
                                                              const friction::Likelihood& likelihood,
-                                                             const tmcmc::BoxPrior& prior);
+                                                             const tmcmc::Prior& prior);
 
 }  // namespace experiments

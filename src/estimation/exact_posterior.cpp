@@ -4,6 +4,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -78,16 +79,30 @@ Minima local_minima(const std::function<double(double)>& f, const Interval& rang
   return minima;
 }
 
-/// Marginal of the noise level: sigma^-n times the sum over the nodes in x of weight exp(-S / (2 sigma^2)).
+/// The mesh with the breaks of a prior that lie inside it.
+std::vector<double> with_breaks(std::vector<double> mesh, const ParameterPrior* prior) {
+  if (prior != nullptr) {
+    const double low = mesh.front();
+    const double high = mesh.back();
+    std::copy_if(prior->breaks.begin(), prior->breaks.end(), std::back_inserter(mesh),
+                 [=](double x) { return x > low && x < high; });
+    std::sort(mesh.begin(), mesh.end());
+    mesh.erase(std::unique(mesh.begin(), mesh.end()), mesh.end());
+  }
+  return mesh;
+}
+
+/// Marginal of the noise level: prior times sigma^-n times the sum over the nodes in x of weight exp(-S / (2 sigma^2)).
 TabulatedDensity tabulate_noise(friction::Parameter parameter, std::size_t count, const Interval& range,
                                 const std::vector<double>& weights, const std::vector<double>& misfits,
-                                const ExactPosteriorOptions& options) {
+                                const ParameterPrior* prior, const ExactPosteriorOptions& options) {
   const double smallest = *std::min_element(misfits.begin(), misfits.end());
   const auto log_density = [&](double sigma) {
     const double scale = 0.5 / (sigma * sigma);
     const double sum = portable_math::sum_of(
         misfits.size(), [&](std::size_t k) { return weights[k] * exp(scale * (smallest - misfits[k])); });
-    return log(sum) - static_cast<double>(count) * log(sigma) - scale * smallest;
+    const double log_likelihood = log(sum) - static_cast<double>(count) * log(sigma) - scale * smallest;
+    return prior == nullptr ? log_likelihood : log_likelihood + prior->log_density(sigma);
   };
   const Minima modes = local_minima([&](double sigma) { return -log_density(sigma); }, range,
                                     std::min(options.scan_intervals, 512), true);
@@ -95,7 +110,8 @@ TabulatedDensity tabulate_noise(friction::Parameter parameter, std::size_t count
   TabulationOptions tabulation;
   tabulation.max_panels = options.max_panels;
   return {name_of(parameter), log_density,
-          graded_mesh(range.lower, range.upper, modes.places, modes.separators, drop), tabulation};
+          with_breaks(graded_mesh(range.lower, range.upper, modes.places, modes.separators, drop), prior),
+          tabulation};
 }
 
 /// The part of the prior interval of F_mu where the motion is continuous, a few roundings below the limit: the
@@ -123,14 +139,25 @@ ExactPosterior::ExactPosterior(const friction::Likelihood& likelihood, const Par
                                const ExactPosteriorOptions& options)
     : likelihood_(likelihood),
       log_prior_density_((options.validate(), estimation::validate(bounds), -estimation::log_volume(bounds))),
-      phase_(integrate(likelihood, bounds, options, friction::friction_force, friction::phase_noise)),
+      phase_(
+          integrate(likelihood, bounds, options, friction::friction_force, friction::phase_noise, nullptr)),
       frequency_(integrate(likelihood, bounds, options, friction::natural_frequency,
-                           friction::frequency_ratio_noise)) {}
+                           friction::frequency_ratio_noise, nullptr)) {}
+
+ExactPosterior::ExactPosterior(const friction::Likelihood& likelihood, const ParameterPriors& priors,
+                               const ExactPosteriorOptions& options)
+    : likelihood_(likelihood),
+      log_prior_density_((options.validate(), 0.0)),  // the densities of the priors hold their constants
+      phase_(integrate(likelihood, ranges_of(priors), options, friction::friction_force,
+                       friction::phase_noise, &priors)),
+      frequency_(integrate(likelihood, ranges_of(priors), options, friction::natural_frequency,
+                           friction::frequency_ratio_noise, &priors)) {}
 
 ExactPosterior::Pair ExactPosterior::integrate(const friction::Likelihood& likelihood,
                                                const ParameterBounds& bounds,
                                                const ExactPosteriorOptions& options,
-                                               friction::Parameter location, friction::Parameter noise) {
+                                               friction::Parameter location, friction::Parameter noise,
+                                               const ParameterPriors* priors) {
   const std::size_t count = likelihood.observation_count();
   const bool phase = location == friction::friction_force;
   const std::function<double(double)> misfit = [&likelihood, phase](double x) {
@@ -145,22 +172,40 @@ ExactPosterior::Pair ExactPosterior::integrate(const friction::Likelihood& likel
   for (const double x : minima.places) {
     smallest_misfit = std::min(smallest_misfit, misfit(x));
   }
-  const double sharpest = smallest_noise(count, noise_range, smallest_misfit, 50.0);
+  const ParameterPrior* location_prior =
+      priors == nullptr ? nullptr : &(*priors)[static_cast<std::size_t>(location)];
+  const ParameterPrior* noise_prior =
+      priors == nullptr ? nullptr : &(*priors)[static_cast<std::size_t>(noise)];
+  std::optional<NoiseIntegral> noise_integral;
+  if (noise_prior != nullptr) {
+    noise_integral.emplace(count, *noise_prior);
+  }
+  const double sharpest = noise_integral ? noise_integral->smallest_noise(smallest_misfit, 50.0)
+                                         : smallest_noise(count, noise_range, smallest_misfit, 50.0);
   const auto location_drop = [&](double from, double to) {
     return 0.5 * (misfit(to) - misfit(from)) / (sharpest * sharpest);
   };
   TabulationOptions tabulation;
   tabulation.max_panels = options.max_panels;
   const TabulatedDensity location_table(
-      name_of(location), [&](double x) { return log_noise_integral(count, noise_range, misfit(x)); },
-      graded_mesh(range.lower, range.upper, minima.places, minima.separators, location_drop), tabulation);
+      name_of(location),
+      [&](double x) {
+        return noise_integral ? (*noise_integral)(misfit(x)) + location_prior->log_density(x)
+                              : log_noise_integral(count, noise_range, misfit(x));
+      },
+      with_breaks(graded_mesh(range.lower, range.upper, minima.places, minima.separators, location_drop),
+                  location_prior),
+      tabulation);
 
   std::vector<double> misfits;
-  for (const double x : location_table.nodes()) {
+  std::vector<double> weights = location_table.weights();
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const double x = location_table.nodes()[k];
     misfits.push_back(misfit(x));
+    weights[k] *= location_prior == nullptr ? 1.0 : exp(location_prior->log_density(x));
   }
   const TabulatedDensity noise_table =
-      tabulate_noise(noise, count, noise_range, location_table.weights(), misfits, options);
+      tabulate_noise(noise, count, noise_range, weights, misfits, noise_prior, options);
 
   for (const TabulatedDensity* table : {&location_table, &noise_table}) {
     const auto parameter = table == &location_table ? location : noise;
@@ -170,11 +215,31 @@ ExactPosterior::Pair ExactPosterior::integrate(const friction::Likelihood& likel
       std::string("the integrals over ") + name_of(location) + " and " + name_of(noise) + " in either order",
       std::fabs(location_table.log_integral() - noise_table.log_integral()), options.relative_tolerance);
 
+  if (noise_prior != nullptr) {
+    return {minima.places.size(), location_table, noise_table, std::nullopt, *noise_prior};
+  }
   // Between the nodes of a panel the density changes by a few nats, the misfit by as many 2 sigma^2.
   const auto [lowest, highest] = std::minmax_element(misfits.begin(), misfits.end());
   const NoiseConditional conditional(
       count, noise_range, std::max(0.0, *lowest - 12.0 * noise_range.lower * noise_range.lower), *highest);
-  return {minima.places.size(), location_table, noise_table, conditional};
+  return {minima.places.size(), location_table, noise_table, conditional, {}};
+}
+
+double ExactPosterior::Pair::noise_quantile(std::size_t count, double misfit, double p) const {
+  if (conditional) {
+    return conditional->quantile(misfit, p);
+  }
+  const auto log_density = [&](double sigma) {
+    return noise_prior.log_density(sigma) - static_cast<double>(count) * log(sigma) -
+           0.5 * misfit / (sigma * sigma);
+  };
+  const Interval range = noise_prior.range();
+  const Minima peaks = local_minima([&](double sigma) { return -log_density(sigma); }, range, 256, true);
+  const auto drop = [&](double from, double to) { return log_density(from) - log_density(to); };
+  const TabulatedDensity table(
+      "noise level given the misfit", log_density,
+      with_breaks(graded_mesh(range.lower, range.upper, peaks.places, peaks.separators, drop), &noise_prior));
+  return table.quantile(p);
 }
 
 double ExactPosterior::log_evidence() const {
@@ -221,11 +286,12 @@ std::array<double, friction::parameter_count> ExactPosterior::draw(
   std::array<double, friction::parameter_count> point{};
   point[friction::friction_force] = phase_.location.quantile(uniforms[friction::friction_force]);
   point[friction::natural_frequency] = frequency_.location.quantile(uniforms[friction::natural_frequency]);
-  point[friction::phase_noise] = phase_.conditional.quantile(
-      likelihood_.phase_misfit(point[friction::friction_force]), uniforms[friction::phase_noise]);
-  point[friction::frequency_ratio_noise] =
-      frequency_.conditional.quantile(likelihood_.frequency_misfit(point[friction::natural_frequency]),
-                                      uniforms[friction::frequency_ratio_noise]);
+  point[friction::phase_noise] = phase_.noise_quantile(
+      likelihood_.observation_count(), likelihood_.phase_misfit(point[friction::friction_force]),
+      uniforms[friction::phase_noise]);
+  point[friction::frequency_ratio_noise] = frequency_.noise_quantile(
+      likelihood_.observation_count(), likelihood_.frequency_misfit(point[friction::natural_frequency]),
+      uniforms[friction::frequency_ratio_noise]);
   return point;
 }
 

@@ -1,13 +1,14 @@
 /// \file
-/// The posterior of Eq. 24 under independent uniform priors, by quadrature: evidence, marginals and
+/// The posterior of Eq. 24 under independent priors, by quadrature: evidence, marginals and
 /// independent draws without a Markov chain.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "estimation/noise_conditional.hpp"
-#include "estimation/parameter_bounds.hpp"
+#include "estimation/parameter_prior.hpp"
 #include "estimation/tabulated_density.hpp"
 #include "friction/likelihood.hpp"
 
@@ -32,7 +33,7 @@ struct ExactPosteriorOptions {
 /// Exact posterior of (F_mu, omega_n, sigma_phase, sigma_r). It is a product of two densities of a location x
 /// (F_mu or omega_n) and a noise level sigma (sigma_phase or sigma_r), each proportional to
 ///
-///     sigma^-n exp(-S(x) / (2 sigma^2))   on the prior box,
+///     prior(x) prior(sigma) sigma^-n exp(-S(x) / (2 sigma^2)),
 ///
 /// S being Likelihood::phase_misfit, where the motion is continuous, or Likelihood::frequency_misfit. The
 /// marginal of x is the integral over sigma at given S (log_noise_integral); the marginal of sigma is the sum
@@ -49,6 +50,12 @@ class ExactPosterior {
   ///         force inside the bounds is feasible, so that the evidence is 0; IntegrationError, naming the
   ///         parameter, if relative_tolerance is not met.
   ExactPosterior(const friction::Likelihood& likelihood, const ParameterBounds& bounds,
+                 const ExactPosteriorOptions& options = {});
+
+  /// The same under independent priors that are not uniform. A correlation between F_mu with sigma_phase on one side and omega_n
+  /// with sigma_r on the other would not leave two densities of two parameters each, and is out of reach here.
+  /// \throws as above; errors::InvalidValue for priors that ranges_of() refuses
+  ExactPosterior(const friction::Likelihood& likelihood, const ParameterPriors& priors,
                  const ExactPosteriorOptions& options = {});
 
   /// log P(D): the likelihood averaged over the normalised prior.
@@ -68,7 +75,8 @@ class ExactPosterior {
   /// friction::Parameter: F_mu and omega_n by the inverse of their marginal distribution functions,
   /// sigma_phase and sigma_r by the inverse of the conditional ones. Independent uniforms give independent
   /// exact draws. The inverses are solved, not interpolated: they err by less than 1e-12 in probability
-  /// beyond relative_error(). Time: about 2 us and one evaluation of each misfit.
+  /// beyond relative_error(). Time: about 2 us and one evaluation of each misfit; under other priors than uniform ones about a
+  /// millisecond, as the conditional density of a noise level is tabulated for each draw.
   [[nodiscard]] std::array<double, friction::parameter_count> draw(
       const std::array<double, friction::parameter_count>& uniforms) const;
 
@@ -77,12 +85,15 @@ class ExactPosterior {
     std::size_t modes;
     TabulatedDensity location;
     TabulatedDensity noise;
-    NoiseConditional conditional;
+    std::optional<NoiseConditional> conditional;  // of uniform priors
+    ParameterPrior noise_prior = {};              // of others
+
+    [[nodiscard]] double noise_quantile(std::size_t count, double misfit, double p) const;
   };
 
   [[nodiscard]] static Pair integrate(const friction::Likelihood& likelihood, const ParameterBounds& bounds,
                                       const ExactPosteriorOptions& options, friction::Parameter location,
-                                      friction::Parameter noise);
+                                      friction::Parameter noise, const ParameterPriors* priors);
 
   friction::Likelihood likelihood_;
   double log_prior_density_;

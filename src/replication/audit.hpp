@@ -1,5 +1,5 @@
 /// \file
-/// Audit of a table of measurements: does it agree with the truth and the noise levels stated for it?
+/// Audit of a table of observations: does it agree with the truth and the noise levels stated for it?
 #pragma once
 
 #include <vector>

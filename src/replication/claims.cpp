@@ -265,6 +265,9 @@ std::vector<Statistic> claim_statistics(const ClaimEvidence& e, const JointTests
   add("rank correlation of iterations and error", e.iterations_and_error.rho, not_a_number);
   add("p of the rank correlation", e.iterations_and_error.p, not_a_number);
   const Estimate worth = independent_draws_worth(e.studies, runs, 0, exact_mean, exact_sd);
+  add("chi^2 of the ratios", e.audit.ratio_chi_squared, not_a_number);
+  add("bound of unlikely", significance_level, not_a_number);
+  add("bound of very unlikely", strict_significance, not_a_number);
   add("independent draws that a run is worth", worth.value, worth.standard_error);
   return list;
 }

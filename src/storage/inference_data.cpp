@@ -38,11 +38,15 @@ class Group {
     return dimension;
   }
 
-  void variable(const std::string& name, const std::vector<int>& dimensions, const double* values) {
+  void variable(const std::string& name, const std::vector<int>& dimensions, const double* values,
+                const std::string& unit = {}) {
     int variable = 0;
     check(nc_def_var(id_, name.c_str(), NC_DOUBLE, static_cast<int>(dimensions.size()), dimensions.data(),
                      &variable),
           "variable " + name);
+    if (!unit.empty()) {
+      check(nc_put_att_text(id_, variable, "units", unit.size(), unit.data()), "unit of " + name);
+    }
     check(nc_put_var_double(id_, variable, values), "variable " + name);
   }
 
@@ -85,7 +89,8 @@ void fill(int file, const InferenceData& data) {
                                        posterior.dimension("draw", draws, true)};
   for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
     posterior.variable(data.parameter_names[j], chain_draw,
-                       data.samples.col(static_cast<Eigen::Index>(j)).data());
+                       data.samples.col(static_cast<Eigen::Index>(j)).data(),
+                       data.parameter_units.empty() ? std::string() : data.parameter_units[j]);
   }
   put_attributes(posterior.id(), data);
 
@@ -165,6 +170,10 @@ void write_inference_data(io::OutputFile& output, const InferenceData& data) {
     throw errors::InvalidValue(
         "samples", std::to_string(data.samples.rows()) + " x " + std::to_string(data.samples.cols()),
         "a column for each parameter name and a log-likelihood for each row");
+  }
+  if (!data.parameter_units.empty() && data.parameter_units.size() != data.parameter_names.size()) {
+    throw errors::InvalidValue("parameter_units", data.parameter_units.size(),
+                               "one for each parameter, or none");
   }
   MemoryFile file;
   fill(file.id(), data);

@@ -32,6 +32,8 @@ using Column = std::pair<std::string, std::vector<double>>;
 struct InferenceData {
   /// Names of the d parameters.
   std::vector<std::string> parameter_names = {};
+  /// Their units, the attribute `units` of each variable; empty for none, or none of all.
+  std::vector<std::string> parameter_units = {};
   /// n x d.
   Eigen::MatrixXd samples = {};
   /// Of each sample and all observations, n.

@@ -124,8 +124,9 @@ void require_correlation(const Eigen::MatrixXd& matrix, Index d) {
   const Index bad = first_bad_pivot(matrix);
   if (bad >= 0) {
     throw errors::InvalidValue("correlation", "",
-                               "a positive definite matrix; that of the first " + std::to_string(bad + 1) +
-                                   " parameters is none, since no random numbers can be correlated so");
+                               "a positive definite matrix, which that of the first " +
+                                   std::to_string(bad + 1) +
+                                   " parameters is not: no random numbers can be correlated so");
   }
 }
 

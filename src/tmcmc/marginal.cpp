@@ -61,6 +61,10 @@ double Marginal::normal_score(double x) const {
                                : family_->normal_score(x);
 }
 
+void Marginal::normal_scores(const double* x, std::size_t n, double* scores) const {
+  family_->normal_scores(x, n, scores);
+}
+
 double Marginal::from_normal(double z) const {
   return std::clamp(family_->from_normal(z), support_.lower, support_.upper);
 }

@@ -88,6 +88,8 @@ class Marginal {
   [[nodiscard]] double quantile(double p) const;
   /// Phi^-1(F(x)), with F the distribution function of the marginal and Phi that of the standard normal.
   [[nodiscard]] double normal_score(double x) const;
+  /// normal_score() of n points; infinite on a bound and NaN outside.
+  void normal_scores(const double* x, std::size_t n, double* scores) const;
   /// F^-1(Phi(z)), the inverse of normal_score().
   [[nodiscard]] double from_normal(double z) const;
 

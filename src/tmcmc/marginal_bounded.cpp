@@ -11,7 +11,9 @@ using BetaDistribution = boost::math::beta_distribution<double, detail::Policy>;
 struct Uniform final : detail::FamilyOf<Uniform> {
   Uniform(double a, double b) : lower(a), upper(b) {}
   [[nodiscard]] Support support() const override { return {lower, upper}; }
-  [[nodiscard]] double log_kernel(double x) const { return x >= lower && x <= upper ? 0.0 : -infinity; }
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
+    return x >= lower && x <= upper ? 0.0 : -infinity;
+  }
   [[nodiscard]] double log_constant() const override { return -portable_math::log(upper - lower); }
   [[nodiscard]] double cdf(double x) const override { return (x - lower) / (upper - lower); }
   [[nodiscard]] double complement(double x) const override { return (upper - x) / (upper - lower); }
@@ -22,11 +24,16 @@ struct Uniform final : detail::FamilyOf<Uniform> {
   double upper;
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Uniform& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct LogUniform final : detail::FamilyOf<LogUniform> {
   LogUniform(double a, double b)
       : lower(a), upper(b), log_ratio(portable_math::log(b) - portable_math::log(a)) {}
   [[nodiscard]] Support support() const override { return {lower, upper}; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     return x >= lower && x <= upper ? -portable_math::log(x) : -infinity;
   }
   [[nodiscard]] double log_constant() const override { return -portable_math::log(log_ratio); }
@@ -44,12 +51,17 @@ struct LogUniform final : detail::FamilyOf<LogUniform> {
   double log_ratio;
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const LogUniform& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct Beta final : detail::FamilyOf<Beta> {
   Beta(double a, double b, double low, double high)
       : alpha(a), beta(b), lower(low), upper(high), functions(BetaDistribution(a, b), low, high - low) {}
   [[nodiscard]] Support support() const override { return {lower, upper}; }
   [[nodiscard]] bool portable() const override { return false; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     return x > lower && x < upper
                ? (alpha - 1.0) * portable_math::log(x - lower) + (beta - 1.0) * portable_math::log(upper - x)
                : -infinity;
@@ -74,15 +86,19 @@ struct Beta final : detail::FamilyOf<Beta> {
   detail::BoostFunctions<BetaDistribution> functions;
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Beta& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct Triangular final : detail::FamilyOf<Triangular> {
   Triangular(double a, double m, double b) : lower(a), mode(m), upper(b) {}
   [[nodiscard]] Support support() const override { return {lower, upper}; }
-  [[nodiscard]] double log_kernel(double x) const {
-    if (!(x >= lower && x <= upper)) {
-      return -infinity;
-    }
-    return x < mode ? portable_math::log((x - lower) / (mode - lower))
-                    : (x > mode ? portable_math::log((upper - x) / (upper - mode)) : 0.0);
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
+    const double below = (x - lower) / (mode - lower);
+    const double above = (upper - x) / (upper - mode);
+    const double height = x < mode ? below : (x > mode ? above : 1.0);
+    return x >= lower && x <= upper ? portable_math::log(height) : -infinity;
   }
   [[nodiscard]] double log_constant() const override { return portable_math::log(2.0 / (upper - lower)); }
   [[nodiscard]] double cdf(double x) const override {
@@ -114,6 +130,11 @@ struct Triangular final : detail::FamilyOf<Triangular> {
     return upper - std::sqrt(q * (upper - lower) * (upper - mode));
   }
 };
+
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Triangular& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
 
 }  // namespace
 

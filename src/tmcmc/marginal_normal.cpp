@@ -9,10 +9,15 @@ using detail::infinity;
 using detail::normal_cdf;
 using portable_math::normal_quantile;
 
+struct Normal;
+struct LogNormal;
+void scores_of(const Normal& family, const double* x, std::size_t n, double* scores);
+void scores_of(const LogNormal& family, const double* x, std::size_t n, double* scores);
+
 struct Normal final : detail::FamilyOf<Normal> {
   Normal(double m, double s) : mean(m), sd(s) {}
   [[nodiscard]] Support support() const override { return {}; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     const double z = (x - mean) / sd;
     return -0.5 * (z * z);
   }
@@ -26,11 +31,19 @@ struct Normal final : detail::FamilyOf<Normal> {
     return from_normal(-normal_quantile(q));
   }
   [[nodiscard]] double normal_score(double x) const override { return (x - mean) / sd; }
+  void normal_scores(const double* x, std::size_t n, double* scores) const override {
+    scores_of(*this, x, n, scores);
+  }
   [[nodiscard]] double from_normal(double z) const override { return mean + sd * z; }
 
   double mean;
   double sd;
 };
+
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Normal& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
 
 /// Where the interval lies right of the mean, everything is computed of -X, so that differences are of small numbers.
 struct TruncatedNormal final : detail::FamilyOf<TruncatedNormal> {
@@ -43,7 +56,7 @@ struct TruncatedNormal final : detail::FamilyOf<TruncatedNormal> {
   }
   [[nodiscard]] Support support() const override { return interval; }
   [[nodiscard]] bool portable() const override { return false; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     const double z = (x - mean) / sd;
     return x >= interval.lower && x <= interval.upper ? -0.5 * (z * z) : -infinity;
   }
@@ -78,10 +91,15 @@ struct TruncatedNormal final : detail::FamilyOf<TruncatedNormal> {
   }
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const TruncatedNormal& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct HalfNormal final : detail::FamilyOf<HalfNormal> {
   explicit HalfNormal(double s) : sd(s) {}
   [[nodiscard]] Support support() const override { return {0.0, infinity}; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     const double z = x / sd;
     return x >= 0.0 ? -0.5 * (z * z) : -infinity;
   }
@@ -101,10 +119,15 @@ struct HalfNormal final : detail::FamilyOf<HalfNormal> {
   double sd;
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const HalfNormal& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct LogNormal final : detail::FamilyOf<LogNormal> {
   LogNormal(double m, double s) : mu(m), sigma(s) {}
   [[nodiscard]] Support support() const override { return {0.0, infinity}; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     const double log_x = portable_math::log(x > 0.0 ? x : 1.0);
     const double z = (log_x - mu) / sigma;
     return x > 0.0 ? -log_x - 0.5 * (z * z) : -infinity;
@@ -119,11 +142,37 @@ struct LogNormal final : detail::FamilyOf<LogNormal> {
     return from_normal(-normal_quantile(q));
   }
   [[nodiscard]] double normal_score(double x) const override { return (portable_math::log(x) - mu) / sigma; }
+  void normal_scores(const double* x, std::size_t n, double* scores) const override {
+    scores_of(*this, x, n, scores);
+  }
   [[nodiscard]] double from_normal(double z) const override { return portable_math::exp(mu + sigma * z); }
 
   double mu;
   double sigma;
 };
+
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const LogNormal& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
+PORTABLE_MATH_MULTIVERSION
+void scores_of(const Normal& family, const double* x, std::size_t n, double* scores) {
+  const double mean = family.mean;
+  const double sd = family.sd;
+  for (std::size_t i = 0; i < n; ++i) {
+    scores[i] = (x[i] - mean) / sd;
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void scores_of(const LogNormal& family, const double* x, std::size_t n, double* scores) {
+  const double mu = family.mu;
+  const double sigma = family.sigma;
+  for (std::size_t i = 0; i < n; ++i) {
+    scores[i] = (portable_math::log(x[i]) - mu) / sigma;
+  }
+}
 
 /// sigma of the log-normal distribution with this coefficient of variation.
 double sigma_of(double cov) {

@@ -16,8 +16,8 @@ double log_gamma(double x) {
 struct Weibull final : detail::FamilyOf<Weibull> {
   Weibull(double k, double s) : shape(k), scale(s) {}
   [[nodiscard]] Support support() const override { return {0.0, infinity}; }
-  [[nodiscard]] double log_kernel(double x) const {
-    if (shape == 1.0) {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
+    if (shape == 1.0) {  // exponential
       return x >= 0.0 ? -(x / scale) : -infinity;
     }
     const double log_ratio = portable_math::log(x > 0.0 ? x / scale : 1.0);
@@ -41,11 +41,16 @@ struct Weibull final : detail::FamilyOf<Weibull> {
   }
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Weibull& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct Gamma final : detail::FamilyOf<Gamma> {
   Gamma(double k, double r) : shape(k), rate(r), functions(GammaDistribution(k), 0.0, 1.0 / r) {}
   [[nodiscard]] Support support() const override { return {0.0, infinity}; }
   [[nodiscard]] bool portable() const override { return false; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     return x > 0.0 ? (shape - 1.0) * portable_math::log(x) - rate * x : -infinity;
   }
   [[nodiscard]] double log_constant() const override {
@@ -63,12 +68,17 @@ struct Gamma final : detail::FamilyOf<Gamma> {
   detail::BoostFunctions<GammaDistribution> functions;
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Gamma& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct InverseGamma final : detail::FamilyOf<InverseGamma> {
   InverseGamma(double k, double s) : shape(k), scale(s), functions(GammaDistribution(k), 0.0, 1.0 / s) {}
   [[nodiscard]] Support support() const override { return {0.0, infinity}; }
   [[nodiscard]] bool portable() const override { return false; }
   [[nodiscard]] bool has_variance() const override { return shape > 2.0; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     return x > 0.0 ? -(shape + 1.0) * portable_math::log(x) - scale / x : -infinity;
   }
   [[nodiscard]] double log_constant() const override {
@@ -83,6 +93,11 @@ struct InverseGamma final : detail::FamilyOf<InverseGamma> {
   double scale;
   detail::BoostFunctions<GammaDistribution> functions;
 };
+
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const InverseGamma& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
 
 }  // namespace
 

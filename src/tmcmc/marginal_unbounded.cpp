@@ -10,7 +10,7 @@ using StudentDistribution = boost::math::students_t_distribution<double, detail:
 struct Gumbel final : detail::FamilyOf<Gumbel> {
   Gumbel(double l, double s) : location(l), scale(s) {}
   [[nodiscard]] Support support() const override { return {}; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     const double z = (x - location) / scale;
     return -z - portable_math::exp(-z);
   }
@@ -31,13 +31,18 @@ struct Gumbel final : detail::FamilyOf<Gumbel> {
   [[nodiscard]] double exceedances(double x) const { return portable_math::exp(-(x - location) / scale); }
 };
 
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const Gumbel& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
+
 struct StudentT final : detail::FamilyOf<StudentT> {
   StudentT(double nu, double l, double s)
       : degrees(nu), location(l), scale(s), functions(StudentDistribution(nu), l, s) {}
   [[nodiscard]] Support support() const override { return {}; }
   [[nodiscard]] bool portable() const override { return false; }
   [[nodiscard]] bool has_variance() const override { return degrees > 2.0; }
-  [[nodiscard]] double log_kernel(double x) const {
+  [[nodiscard]] PORTABLE_MATH_INLINE double log_kernel(double x) const {
     const double z = (x - location) / scale;
     return -0.5 * (degrees + 1.0) * portable_math::log(1.0 + z * z / degrees);
   }
@@ -59,6 +64,11 @@ struct StudentT final : detail::FamilyOf<StudentT> {
   double scale;
   detail::BoostFunctions<StudentDistribution> functions;
 };
+
+PORTABLE_MATH_MULTIVERSION
+void add_kernel(const StudentT& family, const double* x, std::size_t n, double* sum) {
+  detail::add_each(family, x, n, sum);
+}
 
 }  // namespace
 

@@ -70,6 +70,13 @@ Prior::Prior(std::vector<Parameter> parameters, const Correlation& correlation)
     const Eigen::MatrixXd scores = normal_score_correlation(correlation, marginals_);
     if (scores != Eigen::MatrixXd::Identity(scores.rows(), scores.cols())) {
       factor_ = detail::cholesky_factor(scores);
+      for (Index j = 0; j < scores.rows(); ++j) {
+        double off_diagonal = 0.0;
+        for (Index k = 0; k < scores.cols(); ++k) {
+          off_diagonal += k == j ? 0.0 : std::fabs(scores(j, k));
+        }
+        correlated_.push_back(off_diagonal > 0.0 ? 1 : 0);
+      }
       box_ = false;
     }
   }

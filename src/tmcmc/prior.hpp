@@ -107,6 +107,7 @@ class Prior {
   std::vector<Marginal> marginals_;
   Eigen::MatrixXd
       factor_;  // Cholesky factor of the correlation matrix of the normal scores; empty for independence
+  std::vector<char> correlated_;  // which parameters are, with any other; empty for independence
   std::shared_ptr<const OwnPrior> own_;
   bool box_ = false;
 };

@@ -1,11 +1,13 @@
 // The density of a prior.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <vector>
 
 #include "portable_math/elementary.hpp"
+#include "portable_math/multiversion.hpp"
 #include "tmcmc/prior.hpp"
 
 namespace tmcmc {
@@ -13,6 +15,27 @@ namespace tmcmc {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+PORTABLE_MATH_MULTIVERSION
+void add_squares(double sign, const double* x, std::size_t n, double* sum) {
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i] += sign * (x[i] * x[i]);
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void subtract(double factor, const double* x, std::size_t n, double* y) {
+  for (std::size_t i = 0; i < n; ++i) {
+    y[i] -= factor * x[i];
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void divide(double by, std::size_t n, double* x) {
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] /= by;
+  }
+}
 
 }  // namespace
 
@@ -41,27 +64,35 @@ void Prior::log_kernel(std::span<const double* const> columns, std::size_t n, do
   }
 }
 
-/// log of the density of the copula: -(|L^-1 z|^2 - |z|^2) / 2, z the normal scores.
+/// log of the density of the copula: -(|L^-1 z|^2 - |z|^2) / 2, z the normal scores, of blocks of points column by column.
 void Prior::add_copula(std::span<const double* const> columns, std::size_t n, double* result) const {
+  constexpr std::size_t block = 64;
   const Index d = dimension();
-  std::vector<double> white(static_cast<std::size_t>(d));
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!(result[i] > -infinity)) {
-      continue;
-    }
-    double sum = 0.0;
+  std::vector<std::array<double, block>> white(static_cast<std::size_t>(d));
+  std::array<double, block> sum{};
+  for (std::size_t first = 0; first < n; first += block) {
+    const std::size_t rows = std::min(block, n - first);
+    sum.fill(0.0);
     for (Index j = 0; j < d; ++j) {
-      const double z =
-          marginals_[static_cast<std::size_t>(j)].normal_score(columns[static_cast<std::size_t>(j)][i]);
-      double rest = z;
-      for (Index k = 0; k < j; ++k) {
-        rest -= factor_(j, k) * white[static_cast<std::size_t>(k)];
+      auto& rest = white[static_cast<std::size_t>(j)];
+      if (!correlated_[static_cast<std::size_t>(j)]) {
+        continue;
       }
-      rest /= factor_(j, j);
-      white[static_cast<std::size_t>(j)] = rest;
-      sum += rest * rest - z * z;
+      marginals_[static_cast<std::size_t>(j)].normal_scores(columns[static_cast<std::size_t>(j)] + first,
+                                                            rows, rest.data());
+      add_squares(-1.0, rest.data(), rows, sum.data());
+      for (Index k = 0; k < j; ++k) {
+        if (factor_(j, k) != 0.0) {
+          subtract(factor_(j, k), white[static_cast<std::size_t>(k)].data(), rows, rest.data());
+        }
+      }
+      divide(factor_(j, j), rows, rest.data());
+      add_squares(1.0, rest.data(), rows, sum.data());
     }
-    result[i] = std::isfinite(sum) ? result[i] - 0.5 * sum : -infinity;  // infinite on a bound
+    for (std::size_t i = 0; i < rows; ++i) {  // on a bound a score is infinite, outside it is NaN
+      const double density = result[first + i] - 0.5 * sum[i];
+      result[first + i] = std::isfinite(sum[i]) ? density : -infinity;
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "errors/invalid_value.hpp"
 #include "estimation/exact_posterior.hpp"
 #include "rows.hpp"
+#include "tmcmc/marginal.hpp"
 
 namespace {
 
@@ -468,4 +469,90 @@ TEST_CASE("noise as wide as the circle, where residuals cross the half turn", "[
   auto bounds = rows::table2();
   bounds[phase_noise].upper = 300.0;
   check_consistency(ExactPosterior(Likelihood(o, rows::as_published()), bounds), 1e-6);
+}
+
+namespace {
+
+estimation::ParameterPrior prior_of(const tmcmc::Marginal& marginal) {
+  estimation::ParameterPrior prior{[marginal](double x) { return marginal.log_density(x); }, {}};
+  for (const double p :
+       {1e-20, 1e-12, 1e-8, 1e-5, 1e-3, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 0.999, 0.99999}) {
+    prior.breaks.push_back(marginal.quantile(p));
+  }
+  prior.breaks.push_back(marginal.from_normal(8.0));
+  return prior;
+}
+
+/// Table 2 with other noise levels.
+estimation::ParameterPriors with_noise(const tmcmc::Marginal& phase, const tmcmc::Marginal& ratio) {
+  const auto bounds = rows::table2();
+  estimation::ParameterPriors priors;
+  for (std::size_t p = 0; p < priors.size(); ++p) {
+    priors[p] = prior_of(tmcmc::Marginal::uniform(bounds[p].lower, bounds[p].upper));
+    priors[p].breaks.back() = bounds[p].upper;
+  }
+  priors[phase_noise] = prior_of(phase);
+  priors[frequency_ratio_noise] = prior_of(ratio);
+  return priors;
+}
+
+}  // namespace
+
+TEST_CASE("uniform priors as densities give what they give as bounds", "[estimation]") {
+  const auto bounds = rows::table2();
+  auto priors = with_noise(tmcmc::Marginal::uniform(bounds[2].lower, bounds[2].upper),
+                           tmcmc::Marginal::uniform(bounds[3].lower, bounds[3].upper));
+  priors[2].breaks.back() = bounds[2].upper;
+  priors[3].breaks.back() = bounds[3].upper;
+  const Likelihood likelihood(rows::table1(), rows::as_published());
+  const ExactPosterior by_density(likelihood, priors);
+  const ExactPosterior by_bounds(likelihood, bounds);
+  CHECK_THAT(by_density.log_evidence(), WithinAbs(by_bounds.log_evidence(), two_quadratures));
+  for (int p = 0; p < 4; ++p) {
+    CHECK_THAT(by_density.marginal(parameter(p)).mean(),
+               WithinRel(by_bounds.marginal(parameter(p)).mean(), two_quadratures));
+  }
+  const std::array<double, 4> uniforms = {0.3, 0.8, 0.05, 0.6};
+  for (std::size_t p = 0; p < 4; ++p) {
+    CHECK_THAT(by_density.draw(uniforms)[p], WithinRel(by_bounds.draw(uniforms)[p], 1e-7));
+  }
+}
+
+TEST_CASE("other priors of the noise levels reweight the posterior under uniform ones", "[estimation]") {
+  const Likelihood likelihood(rows::table1(), rows::as_published());
+  const auto bounds = rows::table2();
+  const ExactPosterior uniform(likelihood, bounds);
+  const std::vector<std::array<tmcmc::Marginal, 2>> pairs = {
+      {tmcmc::Marginal::log_uniform(bounds[2].lower, bounds[2].upper),
+       tmcmc::Marginal::log_uniform(bounds[3].lower, bounds[3].upper)},
+      // Next to nothing above the upper bounds of 10 deg and 1.
+      {tmcmc::Marginal::half_normal(1.2), tmcmc::Marginal::half_normal(0.1)},
+      {tmcmc::Marginal::log_normal_of_median(2.0, 0.2), tmcmc::Marginal::gamma(4.0, 300.0)}};
+  for (const auto& noise : pairs) {
+    CAPTURE(noise[0].text(), noise[1].text());
+    const ExactPosterior other(likelihood, with_noise(noise[0], noise[1]));
+    double log_evidence = uniform.log_evidence();
+    for (std::size_t k = 0; k < 2; ++k) {
+      // The evidence of each pair changes by the mean of the ratio of the densities of its noise level.
+      const auto noise_level = static_cast<Parameter>(phase_noise + static_cast<int>(k));
+      const auto& marginal = uniform.marginal(noise_level);
+      double mean_ratio = 0.0;
+      double mean = 0.0;
+      const double width = bounds[static_cast<std::size_t>(noise_level)].width();
+      double low = marginal.lower();
+      for (const double q : {1e-12, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999, 1.0}) {
+        const double high = marginal.quantile(q);
+        const auto ratio = [&](double x) {
+          return width * std::exp(noise[k].log_density(x)) * marginal.density(x);
+        };
+        mean_ratio += Kronrod::integrate(ratio, low, high, 12, 1e-11);
+        mean += Kronrod::integrate([&](double x) { return x * ratio(x); }, low, high, 12, 1e-11);
+        low = high;
+      }
+      log_evidence += std::log(mean_ratio);
+      CHECK_THAT(other.marginal(noise_level).mean(), WithinRel(mean / mean_ratio, 1e-6));
+    }
+    CHECK_THAT(other.log_evidence(), WithinAbs(log_evidence, 1e-6));
+    check_consistency(other);
+  }
 }

@@ -36,7 +36,7 @@ long_options() {
     evaluate_model) echo --points points.csv ;;
     exact_posterior) echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv ;;
     sampling_study) echo --samples 200000 --runs 1000 ;;
-    replicated_study | readings | pbox_floor) echo --studies 100000 ;;
+    replicated_study | readings | pbox_floor | forensics) echo --studies 100000 ;;
     calibration) echo --runs 1000000 ;;
     benchmark_problems | cost_accuracy) echo --runs 10000 ;;
     verdicts | fig9_null_distributions) echo --tables 100000000 ;;

@@ -9,6 +9,23 @@ values
 check "report_values ends with 0" test $? = 0
 check "the committed values are these" cmp -s values.tex "$source/paper/generated/values.tex"
 
+# Each equation of the paper is where the appendix says.
+check "the functions of the equations exist" python3 - "$source" <<'END'
+import csv, os, re, sys
+rows = list(csv.DictReader(open(f'{sys.argv[1]}/paper/equations.csv', encoding='utf-8')))
+numbers = set()
+for row in rows:
+    text = open(os.path.join(sys.argv[1], row['file']), encoding='utf-8').read()
+    code = re.sub(r'//[^\n]*', '', text)
+    if not re.search(rf"\b{row['function']}\b *[({{]|class {row['function']}\b", code):
+        sys.exit(f"{row['file']}: no function '{row['function']}' of {row['equation']}")
+    bounds = [int(n) for n in re.findall(r'\d+', row['equation'])]
+    if row['equation'][0].isdigit():
+        numbers.update(range(bounds[0], bounds[-1] + 1) if ' to ' in row['equation'] else bounds)
+missing = set(range(1, 26)) - numbers
+sys.exit(f'equations {sorted(missing)} are in no row' if missing else 0)
+END
+
 # Values and tables of small lists, and what is refused in them.
 value_header='key,file,where,column,statistic,format' table_header='key,file,where,columns'
 printf '%s\n' sampler,run,area,low,word A,0,1,0.5,first_one A,1,2,0.5,x A,2,6,0.25,x 'B,0,4,nan,"100 %, P(F_mu > 1) & chi^2"' \

@@ -55,6 +55,7 @@ small_options() {
     exact_posterior)
       echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv
       return ;;
+    forensics) echo --runs 3 --studies 3 --samples 50; return ;;
     readings) echo --runs 3 --studies 3 --samples 50 --tables 500 --only as_published; return ;;
     scaling) echo --most-samples 100 --most-threads 1 --repetitions 1; return ;;
   esac

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "errors/invalid_value.hpp"
+#include "portable_math/multiversion.hpp"
 #include "portable_math/normal_quantile.hpp"
 #include "tmcmc/marginal.hpp"
 
@@ -57,22 +58,35 @@ class MarginalFamily {
     const double p = cdf(x);
     return p <= 0.5 ? portable_math::normal_quantile(p) : -portable_math::normal_quantile(complement(x));
   }
+  /// normal_score() of n points inside the support.
+  virtual void normal_scores(const double* x, std::size_t n, double* scores) const {
+    for (std::size_t i = 0; i < n; ++i) {
+      scores[i] = normal_score(x[i]);
+    }
+  }
   [[nodiscard]] virtual double from_normal(double z) const {
     return z <= 0.0 ? quantile(normal_cdf(z)) : complement_quantile(normal_cdf(-z));
   }
 };
 
-/// A family by the function Derived::log_kernel(x), which gives minus infinity outside the support.
+/// A family by a function add_kernel(derived, x, n, sum) beside it, which adds Derived::log_kernel(x[i]) to each sum[i]. It stands by
+/// itself so that it can be compiled for each instruction set.
 template <class Derived>
 class FamilyOf : public MarginalFamily {
  public:
   void add_log_kernel(const double* x, std::size_t n, double* sum) const final {
-    const Derived self = static_cast<const Derived&>(*this);
-    for (std::size_t i = 0; i < n; ++i) {
-      sum[i] += self.log_kernel(x[i]);
-    }
+    add_kernel(static_cast<const Derived&>(*this), x, n, sum);
   }
 };
+
+/// The loop of add_kernel(), to be inlined into it; log_kernel() gives minus infinity outside the support.
+template <class Derived>
+PORTABLE_MATH_INLINE void add_each(const Derived& family, const double* x, std::size_t n, double* sum) {
+  const Derived self = family;  // what nothing else points to stays in registers
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i] += self.log_kernel(x[i]);
+  }
+}
 
 /// A distribution of Boost.Math, moved by `location` and stretched by `scale`.
 template <class Distribution>

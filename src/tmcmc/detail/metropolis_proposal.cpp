@@ -224,7 +224,7 @@ void ProposalLanes::shift(const MetropolisKernel& kernel) {
 }
 
 void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
-                            const RowIds& rows, std::size_t count) {
+                            const RowIds& rows, std::size_t count, Eigen::VectorXd& log_prior) {
   log_correction_.fill(0.0);
   for (Index j = 0; j < dimension_; ++j) {
     Lanes& x = x_[static_cast<std::size_t>(j)];
@@ -234,7 +234,17 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, 
     }
   }
   if (!prior.is_box()) {
-    prior.log_kernel(columns_, count, log_prior_.data());
+    bool known = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      log_prior_[i] = log_prior[static_cast<Index>(rows[i])];
+      known = known && !std::isnan(log_prior_[i]);
+    }
+    if (!known) {
+      prior.log_kernel(columns_, count, log_prior_.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        log_prior[static_cast<Index>(rows[i])] = log_prior_[i];
+      }
+    }
   }
   if (kernel.coordinates == Coordinates::unbounded) {
     for (Index j = 0; j < dimension_; ++j) {
@@ -272,18 +282,17 @@ std::size_t ProposalLanes::check(const Prior& prior, std::size_t count) {
 }
 
 void ProposalLanes::add_prior_ratio(const Prior& prior, std::size_t count) {
-  Lanes proposed;
-  prior.log_kernel(columns_, count, proposed.data());
+  prior.log_kernel(columns_, count, proposed_log_prior_.data());
   for (std::size_t i = 0; i < count; ++i) {
     if (inside_[i] == 0.0) {
       continue;
     }
-    if (!(proposed[i] > -std::numeric_limits<double>::infinity())) {
+    if (!(proposed_log_prior_[i] > -std::numeric_limits<double>::infinity())) {
       inside_[i] = 0.0;
     } else if (!std::isfinite(log_prior_[i])) {
       throw SamplingError("the prior has drawn a point where its density is zero");
     } else {
-      log_correction_[i] += proposed[i] - log_prior_[i];
+      log_correction_[i] += proposed_log_prior_[i] - log_prior_[i];
     }
   }
 }

@@ -67,8 +67,10 @@ class ProposalLanes {
             std::size_t count, Lanes* log_uniforms);
 
   /// Makes the proposals from the rows of `points`.
+  /// \param log_prior  Prior::log_kernel() of the rows of `points` by their number, NaN where it is still to be computed, and where
+  ///        it is kept; not used with a box
   void propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
-               const RowIds& rows, std::size_t count);
+               const RowIds& rows, std::size_t count, Eigen::VectorXd& log_prior);
 
   /// Marks the proposals where the prior has a density, adds the ratio of the prior densities to log_correction(), and returns
   /// the number of those marked.
@@ -80,6 +82,8 @@ class ProposalLanes {
   /// Proposed parameter j, a lane a chain.
   [[nodiscard]] const Lanes& parameter(Index j) const { return x_[static_cast<std::size_t>(j)]; }
   [[nodiscard]] const Lanes& independent() const { return independent_; }  ///< 1 for independent proposals
+  /// Prior::log_kernel() of the proposals that check() has found inside; not with a box.
+  [[nodiscard]] const Lanes& log_prior() const { return proposed_log_prior_; }
   /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and the ratios of prior and proposal
   /// densities.
   [[nodiscard]] const Lanes& log_correction() const { return log_correction_; }
@@ -100,6 +104,7 @@ class ProposalLanes {
   std::vector<Lanes> chosen_;           // 1 for coordinates in S
   std::vector<const double*> columns_;  // of x_
   Lanes log_prior_{};                   // at the present states
+  Lanes proposed_log_prior_{};
   Lanes independent_{};
   Lanes walk_scale_{};
   Lanes inside_{};

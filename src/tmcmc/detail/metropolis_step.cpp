@@ -26,6 +26,7 @@ struct Mover::Block {
         candidate_rows(static_cast<std::size_t>(rows)),
         independent(static_cast<std::size_t>(rows)),
         thresholds(static_cast<std::size_t>(rows)),
+        log_prior(static_cast<std::size_t>(rows)),
         proposals(dimension) {}
 
   Population candidates;  // proposals inside the support, in the order of their rows
@@ -34,6 +35,7 @@ struct Mover::Block {
   std::vector<double> independent;  // 1 for independent proposals
   std::vector<double>
       thresholds;  // log-uniform less the correction: least log-ratio of the likelihoods to accept
+  std::vector<double> log_prior;  // of the candidates
   ProposalLanes proposals;
 };
 
@@ -55,6 +57,10 @@ MoveCounts Mover::step(const MetropolisKernel& kernel, std::span<const Index> ro
     }
     blocks_.push_back(std::make_unique<Block>(block_size, points.cols()));
   }
+  if (!prior_.is_box() && known_points_.rows() != points.rows()) {
+    known_points_ = points;
+    log_prior_.setConstant(points.rows(), std::numeric_limits<double>::quiet_NaN());
+  }
   std::vector<MoveCounts> counts(static_cast<std::size_t>(block_count));
   for_each_block(n, block_size, threads_, [&](Index block, Index begin, Index end) {
     const auto b = static_cast<std::size_t>(block);
@@ -68,12 +74,32 @@ MoveCounts Mover::step(const MetropolisKernel& kernel, std::span<const Index> ro
   return total;
 }
 
+/// The caller has changed some rows since their prior density was computed: at the start of a stage all of them.
+void Mover::forget_moved_rows(const Index* rows, Index begin, Index end, const Population& points) {
+  for (Index i = begin; i < end; ++i) {
+    const Index row = rows == nullptr ? i : rows[i];
+    bool moved = false;
+    for (Index j = 0; j < points.cols(); ++j) {
+      moved = moved || known_points_(row, j) != points(row, j);
+    }
+    if (moved) {
+      log_prior_[row] = std::numeric_limits<double>::quiet_NaN();
+      for (Index j = 0; j < points.cols(); ++j) {
+        known_points_(row, j) = points(row, j);
+      }
+    }
+  }
+}
+
 MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, Index begin, Index end,
                              std::uint32_t draw, Population& points, Eigen::VectorXd& log_likelihood,
-                             Block& block) const {
+                             Block& block) {
   const Index d = points.cols();
   MoveCounts counts;
   counts.proposals = end - begin;
+  if (!prior_.is_box()) {
+    forget_moved_rows(rows, begin, end, points);
+  }
   Index candidates = 0;
   DrawId id{.purpose = Purpose::move, .stage = kernel.stage, .draw = draw};
   ProposalLanes::RowIds row_ids{};
@@ -83,7 +109,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
   const auto propose = [&](std::size_t count,
                            ProposalLanes::Lanes* log_uniforms) {  // returns the number inside the support
     proposals.draw(key_, id, kernel, row_ids, count, log_uniforms);
-    proposals.propose(kernel, prior_, points, row_ids, count);
+    proposals.propose(kernel, prior_, points, row_ids, count, log_prior_);
     return proposals.check(prior_, count);
   };
   const auto keep = [&](std::size_t lane, double log_uniform) {
@@ -93,6 +119,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
     block.candidate_rows[static_cast<std::size_t>(candidates)] = static_cast<Index>(row_ids[lane]);
     block.independent[static_cast<std::size_t>(candidates)] = proposals.independent()[lane];
     block.thresholds[static_cast<std::size_t>(candidates)] = log_uniform - proposals.log_correction()[lane];
+    block.log_prior[static_cast<std::size_t>(candidates)] = proposals.log_prior()[lane];
     ++candidates;
   };
   const auto keep_all = [&](std::size_t count) {
@@ -101,6 +128,7 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
     }
     std::copy_n(row_ids.begin(), count, block.candidate_rows.begin() + candidates);
     std::copy_n(proposals.independent().begin(), count, block.independent.begin() + candidates);
+    std::copy_n(proposals.log_prior().begin(), count, block.log_prior.begin() + candidates);
     std::transform(log_u.begin(), log_u.begin() + static_cast<std::ptrdiff_t>(count),
                    proposals.log_correction().begin(), block.thresholds.begin() + candidates, std::minus<>());
     candidates += static_cast<Index>(count);
@@ -171,6 +199,10 @@ MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, 
         points(row, j) = block.candidates(k, j);
       }
       log_likelihood[row] = block.candidate_log_likelihood[k];
+      if (!prior_.is_box()) {
+        log_prior_[row] = block.log_prior[static_cast<std::size_t>(k)];
+        known_points_.row(row) = points.row(row);
+      }
       ++counts.accepted;
       counts.accepted_walks += block.independent[static_cast<std::size_t>(k)] == 0.0 ? 1 : 0;
     }

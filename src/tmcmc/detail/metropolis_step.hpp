@@ -45,13 +45,16 @@ class Mover {
   struct Block;
   MoveCounts step_block(const MetropolisKernel& kernel, const Index* rows, Index begin, Index end,
                         std::uint32_t draw, Population& points, Eigen::VectorXd& log_likelihood,
-                        Block& block) const;
+                        Block& block);
+  void forget_moved_rows(const Index* rows, Index begin, Index end, const Population& points);
 
   const LogLikelihood& log_likelihood_;
   const Prior& prior_;
   StreamKey key_;
   int threads_;
   Index batch_rows_;
+  Population known_points_;    // those that log_prior_ belongs to, by their row
+  Eigen::VectorXd log_prior_;  // Prior::log_kernel() of them; NaN for none
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 

@@ -1,0 +1,41 @@
+/// \file
+/// Priors from files: one row a parameter, and a matrix of correlations beside it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tmcmc/prior.hpp"
+
+namespace experiments {
+
+/// The prior that the user gives.
+struct PriorFiles {
+  std::string marginals;     ///< path of the file with a row for each parameter
+  std::string correlations;  ///< path of the matrix; empty for independence
+};
+
+/// What a model asks of its parameters.
+struct ParameterRules {
+  std::vector<std::string>
+      names;  ///< the rows there have to be, in the order of the model; empty: any, in that of the file
+  bool nonnegative = false;  ///< whether no parameter may be negative
+  /// Throws errors::InvalidValue for a name that a parameter must not have; may be empty.
+  std::function<void(const std::string& name)> require_name = {};
+};
+
+/// A file with the columns `parameter`, `distribution`, a column for each argument of the distributions that are used, and
+/// perhaps `unit`. A cell of an argument that the row's distribution does not have stays empty. Without the column
+/// `distribution`, or where its cell is empty, the row is uniform from `lower` to `upper`, as in table2_prior.csv.
+///
+/// The matrix of correlations has a first column with the names of parameters, and a column for each in any order. The name of
+/// the first column says what is correlated: `parameter`, the parameters themselves (Nataf's model), or `normal_score`, their normal
+/// scores (the Gaussian copula).
+/// \throws io::InputError naming file, line, column, value and what was expected.
+[[nodiscard]] tmcmc::Prior read_prior(const PriorFiles& files, const ParameterRules& rules);
+
+/// Names of the columns that an argument can stand in, each once.
+[[nodiscard]] std::vector<std::string> argument_columns();
+
+}  // namespace experiments
