@@ -28,6 +28,7 @@ help:
 	@sed -n 's/^#: //p' $(MAKEFILE_LIST)
 
 all: results figures paper README.md
+	@tools/environment $(GEN)/environment.csv $(PACKAGES)
 remake:
 	$(MAKE) -B all
 build:

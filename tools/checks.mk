@@ -1,6 +1,6 @@
 # Checks of the code, of the committed files and of the machine's independence; docs/checks.md says what each has found.
 
-.PHONY: test verify verify-parts check-manifest another-seed identical format-check bench scaling sanitize tidy coverage mutations \
+.PHONY: test verify verify-parts check-manifest another-seed identical format-check reuse bench scaling sanitize tidy coverage mutations \
   fuzz build-mpi test-mpi bench-mpi python test-python docs install
 
 #: make test        build and run the tests
@@ -34,6 +34,10 @@ identical: | sanitize-deps $(filter deps,$(MAKECMDGOALS))
 #: make format-check  whether clang-format would change a source
 format-check: | format-deps
 	find src experiments examples tests bench -name '*.[ch]pp' | xargs clang-format --dry-run --Werror
+
+#: make reuse       whether each file has a copyright holder and a licence (REUSE)
+reuse: | reuse-deps
+	reuse lint
 
 #: make sanitize    the test suite with the address and undefined-behaviour sanitizers; with the thread sanitizer where threads meet
 sanitize: | sanitize-deps
