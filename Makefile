@@ -83,8 +83,8 @@ $(GEN)/fig4_areas_and_iterations.csv: $(GEN)/table3_pbox_area.csv $(GEN)/table4_
 	$(STEP) $@ $(BIN)/fig4_areas_and_iterations --areas $(GEN)/table3_pbox_area.csv --counts $(GEN)/table4_iteration_counts.csv \
 	  --printed-areas $(TABLE3) --printed-counts $(TABLE4) --quiet --output $@
 
-# One sampler, its posterior and what independent draws would give: Figures 6 and 7.
-OF_TABLE1 := $(addprefix $(GEN)/,criterion_identity.csv endless_criterion.csv)
+# One sampler, its posterior and what independent draws would give, and what better moves buy: Figures 6, 7 and 12.
+OF_TABLE1 := $(addprefix $(GEN)/,criterion_identity.csv endless_criterion.csv cost_accuracy.csv benchmark_problems.csv)
 $(OF_TABLE1): $(GEN)/%.csv: $(TABLE1) $(PRIOR)
 	$(STEP) $@ $(BIN)/$* --observations $(TABLE1) --quiet --output $@
 
@@ -125,17 +125,16 @@ $(FORENSICS) &: $(GEN)/replicated_study.csv $(PRINTED)
 	$(STEP) "$(FORENSICS)" $(BIN)/forensics --observations $(TABLE1) --replicated $(GEN)/replicated_study.csv --quiet \
 	  --output $(GEN)/forensics.csv --pairs-output $(GEN)/forensics_pairs.csv --summary-output $(GEN)/forensics_summary.csv
 
-# What better moves buy: Figures 12 and 13.
-$(GEN)/cost_accuracy.csv: $(TABLE1) $(PRIOR)
-	$(STEP) $@ $(BIN)/cost_accuracy --observations $(TABLE1) --quiet --output $@
-
+# Whether better moves are calibrated, and what the prior of the noise levels does: Figures 13 and 15.
 CALIBRATION := $(GEN)/calibration.csv $(GEN)/calibration_ranks.csv
 $(CALIBRATION) &: $(TABLE1) $(PRIOR)
 	$(STEP) "$(CALIBRATION)" $(BIN)/calibration --observations $(TABLE1) --quiet --output $(GEN)/calibration.csv \
 	  --ranks-output $(GEN)/calibration_ranks.csv
 
-$(GEN)/benchmark_problems.csv: $(TABLE1) $(PRIOR)
-	$(STEP) $@ $(BIN)/benchmark_problems --observations $(TABLE1) --quiet --output $@
+SENSITIVITY := $(addprefix $(GEN)/prior_sensitivity,.csv _pbox.csv)
+$(SENSITIVITY) &: $(TABLE1) $(PRIOR)
+	$(STEP) "$(SENSITIVITY)" $(BIN)/prior_sensitivity --observations $(TABLE1) --quiet --output $(GEN)/prior_sensitivity.csv \
+	  --pbox-output $(GEN)/prior_sensitivity_pbox.csv
 
 # Printed beside ours.
 COMPARED := $(GEN)/replicated_study.csv $(GEN)/table1_observations.csv $(GEN)/table3_pbox_area.csv $(GEN)/table4_iteration_counts.csv
@@ -152,8 +151,8 @@ compare: $(COMPARED) $(PRINTED)
 
 RESULTS := $(AUDIT) $(GEN)/fig2_phase_angle.csv $(VALIDATION) $(GEN)/least_squares_baseline.csv $(STUDY) $(OF_SAMPLES) \
   $(GEN)/table4_iteration_counts.csv $(GEN)/fig5_tempering.csv $(GEN)/fig4_areas_and_iterations.csv $(OF_TABLE1) $(EXACT) \
-  $(FLOOR) $(GEN)/replicated_study.csv $(VERDICTS) $(NULL) $(GEN)/readings.csv $(FORENSICS) $(GEN)/cost_accuracy.csv $(CALIBRATION) \
-  $(GEN)/benchmark_problems.csv $(COMPARISON)
+  $(FLOOR) $(GEN)/replicated_study.csv $(VERDICTS) $(NULL) $(GEN)/readings.csv $(FORENSICS) $(CALIBRATION) \
+  $(SENSITIVITY) $(COMPARISON)
 results: $(RESULTS)
 
 # ---------------------------------------------------------------- figures, each of its script and of the tables named here
@@ -178,6 +177,7 @@ figures/fig11_readings.pdf: $(GEN)/readings.csv $(TABLE3)
 figures/fig12_cost_accuracy.pdf: $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_summary.csv $(TABLE3)
 figures/fig13_calibration.pdf: $(GEN)/calibration_ranks.csv
 figures/fig14_forensics.pdf: $(GEN)/forensics_pairs.csv
+figures/fig15_prior_sensitivity.pdf: $(GEN)/prior_sensitivity_pbox.csv
 
 # ---------------------------------------------------------------- replication report, and the tables in the README
 

@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   RunOptions run_options;
   std::string pbox_output;
-  long points = 201;
+  long points = 101;
   program.add_output("CSV: a row for each prior, sampler and parameter");
   program.add_file_output("--pbox-output", pbox_output,
                           "CSV of exact distribution functions with the p-boxes of the samplers");
@@ -153,7 +153,7 @@ int main(int argc, char** argv) {
           if (boxes) {
             const auto envelope = pbox::envelope(ecdfs_of(runs, p));
             const double low = marginal.quantile(0.0005);
-            const double high = marginal.quantile(0.995);
+            const double high = marginal.quantile(0.9995);
             for (long i = 0; i < points; ++i) {
               const double x = low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1);
               const auto bounds = pbox::evaluate(envelope, x);

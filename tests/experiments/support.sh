@@ -57,6 +57,7 @@ small_options() {
       return ;;
     forensics) echo --runs 3 --studies 3 --samples 50; return ;;
     readings) echo --runs 3 --studies 3 --samples 50 --tables 500 --only as_published; return ;;
+    prior_sensitivity) echo --runs 3; return ;;
     scaling) echo --most-samples 100 --most-threads 1 --repetitions 1; return ;;
   esac
   case $1 in verdicts | fig9_null_distributions) printf -- '--tables 1000 ' ;; esac
