@@ -103,8 +103,7 @@ int main(int argc, char** argv) {
       for (long k = 0; k < studies; ++k) {
         auto options = run_options.study_options();
         options.study = static_cast<std::uint32_t>(k);
-        auto batch = replication::run_arm(
-            problem, {settings[s].family + " " + settings[s].value, settings[s].options}, s, options);
+        auto batch = replication::run_configuration(problem, settings[s], s, options);
         const auto of_study = replication::pbox_areas(batch);
         for (std::size_t p = 0; p < areas.size(); ++p) {
           areas[p].push_back(of_study[static_cast<Eigen::Index>(p)]);
@@ -120,7 +119,7 @@ int main(int argc, char** argv) {
         lowest.push_back(range.lowest);
         highest.push_back(range.highest);
       }
-      program.report("{:<12} {:<28} {:>9.0f} {:>7.1f} {:>10.5f} {:>10.6f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+      program.report("{:<12} {:<28} {:>9.0f} {:>7.1f} {:>10.5f} {:>10.6f} {:>8.3f} {:>8.4f} {:>8.4f}\n",
                      settings[s].family, settings[s].value, a.evaluations, a.stages, medians[0], medians[1],
                      a.evidence_bias, a.evidence_rms, a.standard_error_rms);
       if (csv) {

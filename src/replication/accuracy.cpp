@@ -5,11 +5,72 @@
 #include <limits>
 
 #include "errors/invalid_value.hpp"
+#include "portable_math/sums.hpp"
 #include "statistics/summary.hpp"
+#include "tmcmc/parallel.hpp"
+#include "tmcmc/resampling.hpp"
 
 namespace replication {
 
 using statistics::root_mean_square;
+
+namespace {
+
+/// In index order: Eigen's own sums follow the instruction set.
+double sum_of(const Eigen::ArrayXd& values) {
+  return portable_math::sum_of(static_cast<std::size_t>(values.size()),
+                               [&](std::size_t i) { return values[static_cast<Eigen::Index>(i)]; });
+}
+
+constexpr tmcmc::Index resampled_points = 1000;  // as the paper's runs have
+
+Run run_of(const tmcmc::MeasuredPosterior& measured, const tmcmc::StreamKey& key) {
+  std::vector<tmcmc::Index> rows(static_cast<std::size_t>(resampled_points));
+  tmcmc::resample(tmcmc::Resampling::multinomial, tmcmc::as_span(measured.weights), key, 0, rows);
+  Run run;
+  tmcmc::State& state = run.result.final;
+  state.points.resize(resampled_points, measured.points.cols());
+  for (tmcmc::Index i = 0; i < resampled_points; ++i) {
+    state.points.row(i) = measured.points.row(rows[static_cast<std::size_t>(i)]);
+  }
+  state.beta = 1.0;
+  state.log_evidence = measured.evidence.log_evidence;
+  state.evaluations = measured.evaluations;
+  run.result.evidence = measured.evidence;
+  const tmcmc::Index d = measured.points.cols();
+  run.result.diagnostics.effective_sample_size = Eigen::VectorXd::Constant(d, measured.effective_sample_size);
+  for (const auto& warning : measured.warnings) {  // whose kinds nothing here asks for
+    run.result.diagnostics.warnings.push_back({tmcmc::WarningKind::uncertain_evidence, warning.message});
+  }
+  run.mean.resize(d);
+  run.standard_deviation.resize(d);
+  const auto n = static_cast<double>(measured.points.rows());
+  for (tmcmc::Index j = 0; j < d; ++j) {
+    const auto column = measured.points.col(j).array();
+    const double mean = sum_of(column * measured.weights.array()) / n;
+    run.mean[j] = mean;
+    run.standard_deviation[j] = std::sqrt(sum_of((column - mean).square() * measured.weights.array()) / n);
+  }
+  return run;
+}
+
+}  // namespace
+
+std::vector<Run> run_configuration(const tmcmc::Problem& problem, const Configuration& configuration,
+                                   std::uint32_t arm_index, const StudyOptions& options) {
+  if (!configuration.draws) {
+    return run_arm(problem, {configuration.family + " " + configuration.value, configuration.options},
+                   arm_index, options);
+  }
+  options.validate();
+  std::vector<Run> runs(static_cast<std::size_t>(options.runs));
+  tmcmc::for_each_block(options.runs, 1, options.threads, [&](tmcmc::Index i, tmcmc::Index, tmcmc::Index) {
+    const tmcmc::StreamKey key{options.seed, options.study, arm_index, static_cast<std::uint32_t>(i)};
+    runs[static_cast<std::size_t>(i)] =
+        run_of(tmcmc::run_with_independent_draws(problem, *configuration.draws, key), key);
+  });
+  return runs;
+}
 
 Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth) {
   const Eigen::Index d = truth.mean.size();
@@ -108,6 +169,14 @@ std::vector<Configuration> configurations(const tmcmc::Options& published) {
     list.push_back(
         {"recommended", std::to_string(budget) + " evaluations", tmcmc::recommended_options(budget)});
   }
+  for (const tmcmc::Index budget : {4000, 8000, 16000, 31000, 62000, 124000}) {
+    list.push_back(
+        {"independent", std::to_string(budget) + " evaluations", start, {{.evaluations = budget}}});
+  }
+  list.push_back({"independent",
+                  "31000 evaluations, CoV = 1",
+                  start,
+                  {{.evaluations = 31000, .criterion = tmcmc::coefficient_of_variation_rule(1.0)}}});
   for (Configuration& configuration : list) {
     configuration.options.infeasible_level = published.infeasible_level;
   }

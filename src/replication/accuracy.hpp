@@ -2,9 +2,11 @@
 /// The accuracy of a sampler over many runs, against a posterior that is known.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "replication/study.hpp"
+#include "tmcmc/independent_draws.hpp"
 
 namespace replication {
 
@@ -40,10 +42,20 @@ struct Configuration {
   std::string family;      ///< what is varied
   std::string value;       ///< to what
   tmcmc::Options options;  ///< complete options of the sampler
+  /// Where it is set, the posterior is measured by independent draws in place of the options.
+  std::optional<tmcmc::IndependentDraws> draws = {};
 };
 
+/// R runs of a configuration, as run_arm(). With independent draws, the samples of a run are 1000 points that are drawn from the
+/// weighted ones (multinomial resampling: their p-box has the area of independent draws and no less), its moments those of all
+/// weighted draws.
+/// \throws as run_arm and tmcmc::run_with_independent_draws.
+[[nodiscard]] std::vector<Run> run_configuration(const tmcmc::Problem& problem,
+                                                 const Configuration& configuration, std::uint32_t arm_index,
+                                                 const StudyOptions& options);
+
 /// The settings that the comparison of cost and accuracy runs through: one change at a time to `published`, then changes
-/// of the moves added up, then the recommended options for several budgets. All with Options::diagnose.
+/// of the moves added up, then the recommended options and independent draws for several budgets. All with Options::diagnose.
 /// \param published  the sampler of the paper (N = 1000, N_eff = N/2, 3 steps)
 [[nodiscard]] std::vector<Configuration> configurations(const tmcmc::Options& published);
 

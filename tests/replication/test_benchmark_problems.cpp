@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "errors/invalid_value.hpp"
+#include "replication/accuracy.hpp"
 #include "replication/benchmark_scores.hpp"
 
 using namespace replication;
@@ -95,4 +96,23 @@ TEST_CASE("Each sampler runs on a problem at its evaluations, the same for any n
       CHECK(std::fabs(one[i].error) < 6.0 * one[i].standard_error);
     }
   }
+}
+
+TEST_CASE("A configuration with independent draws gives runs of 1000 points with the moments of all draws") {
+  const auto problems = closed_form_problems();
+  const auto& p = named(problems, "Gaussian, 2-D");
+  const Configuration configuration{"independent", "5000", {}, tmcmc::IndependentDraws{.evaluations = 5000}};
+  const auto runs = run_configuration(p.problem, configuration, 0, {.runs = 8, .threads = 2});
+  REQUIRE(runs.size() == 8);
+  double squares = 0.0;
+  for (const auto& run : runs) {
+    CHECK(run.result.final.points.rows() == 1000);
+    CHECK(run.result.final.evaluations == 5000);
+    CHECK(run.standard_deviation[0] == Approx(1.0).margin(0.1));
+    squares += run.mean[0] * run.mean[0] / 8.0;
+  }
+  // More than 1000 draws are behind each mean: the points alone would give 0.032.
+  CHECK(std::sqrt(squares) < 0.031);
+  const auto a = accuracy(runs, {Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(2), p.log_evidence});
+  CHECK(a.evidence_rms < 0.02);
 }
