@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "command_line.hpp"
 #include "io/errors.hpp"
 #include "io/interrupt.hpp"
+#include "run.hpp"
 
 namespace examples {
 

@@ -29,20 +29,20 @@ tmcmc::Options sampler_options(long evaluations, int threads) {
   return options;
 }
 
-void report(const Program& program, const Model& model, const tmcmc::Result& result) {
+void report_result(const Report& report, const Model& model, const tmcmc::Result& result) {
   const auto n = static_cast<double>(result.final.points.rows());
   for (Eigen::Index j = 0; j < result.final.points.cols(); ++j) {
     const auto column = result.final.points.col(j).array();
     const double mean = column.mean();
     const double sd = std::sqrt((column - mean).square().sum() / (n - 1.0));
-    program.report("{} = {:.5g} +- {:.2g} (effective sample size {:.0f})\n",
-                   model.parameter_names[static_cast<std::size_t>(j)], mean, sd,
-                   result.diagnostics.effective_sample_size[j]);
+    report("{} = {:.5g} +- {:.2g} (effective sample size {:.0f})\n",
+           model.parameter_names[static_cast<std::size_t>(j)], mean, sd,
+           result.diagnostics.effective_sample_size[j]);
   }
-  program.report("log-evidence {:.3f} +- {:.3f}; {} stages, {} evaluations\n", result.evidence.log_evidence,
-                 result.evidence.standard_error, result.stages.size(), result.final.evaluations);
+  report("log-evidence {:.3f} +- {:.3f}; {} stages, {} evaluations\n", result.evidence.log_evidence,
+         result.evidence.standard_error, result.stages.size(), result.final.evaluations);
   for (const auto& warning : result.diagnostics.warnings) {
-    program.report("warning: {}\n", warning.message);
+    report("warning: {}\n", warning.message);
   }
 }
 
@@ -61,43 +61,44 @@ const char* advice(tmcmc::StopReason stop) {
 
 int main(int argc, char** argv) {
   models::Ranks ranks(argc, argv);
-  Program program("own_model", "Updates a model of one's own: a two-storey shear frame, or another program.");
+  CLI::App app("Updates a model of one's own: a two-storey shear frame, or another program.", "own_model");
+  Report report(app);
   if (ranks.rank() > 0) {
-    program.be_silent();
+    report.be_silent();
   }
   ModelOptions model_options{.observations = example("frame_observations.csv"),
                              .prior = {.marginals = example("frame_prior.csv"), .correlations = {}}};
-  std::string netcdf_path, checkpoint_path;
+  std::string output, netcdf_path, checkpoint_path;
   long evaluations = 31000;
   RunOptions run_options;
-  program.add_output("CSV: a row a sample, with its log-likelihood");
-  program.add_file_output("--netcdf", netcdf_path, "Samples, stages and observations in the layout of ArviZ");
-  program.add_file_output(
-      "--checkpoint", checkpoint_path,
+  add_output(app, output, "CSV: a row a sample, with its log-likelihood");
+  add_output(app, "--netcdf", netcdf_path, "Samples, stages and observations in the layout of ArviZ");
+  add_output(
+      app, "--checkpoint", checkpoint_path,
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
       ".checkpoint, if --output is a file");
-  program.add_input(
-      "--observations", model_options.observations,
+  add_input(
+      app, "--observations", model_options.observations,
       "CSV with columns mode (1 or 2), frequency_hz. With --command: a file that the program reads; the "
       "checkpoint of a run with other contents is refused");
-  program.add_input(
-      "--prior", model_options.prior.marginals,
+  add_input(
+      app, "--prior", model_options.prior.marginals,
       "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a column for each "
       "argument. With --command: the parameters, of any names");
-  program.add_input(
-      "--prior-correlation", model_options.prior.correlations,
-      "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
-      "normal_score, and a column for each parameter; without it they are independent");
-  program.add_number("--evaluations", evaluations, count(2600), "Budget of log-likelihoods");
-  program.add_text("--command", model_options.command, "PROGRAM",
-                   "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv");
-  program.add_number("--timeout", model_options.timeout_seconds,
-                     number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"),
-                     "Most seconds of one call of the program; 0: no limit");
-  run_options.add_seed_to(program);
-  run_options.add_threads_to(program);
+  add_input(app, "--prior-correlation", model_options.prior.correlations,
+            "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
+            "normal_score, and a column for each parameter; without it they are independent");
+  app.add_option("--evaluations", evaluations, "Budget of log-likelihoods")->transform(count(2600));
+  app.add_option("--command", model_options.command,
+                 "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv")
+      ->type_name("PROGRAM");
+  app.add_option("--timeout", model_options.timeout_seconds,
+                 "Most seconds of one call of the program; 0: no limit")
+      ->transform(number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"));
+  run_options.add_seed_to(app);
+  run_options.add_threads_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     model_options.for_netcdf = !netcdf_path.empty();
     model_options.has_own_observations = model_options.observations != example("frame_observations.csv");
     const Model model = make_model(model_options);
@@ -107,14 +108,13 @@ int main(int argc, char** argv) {
     }
     auto columns = model.parameter_names;
     columns.emplace_back("log_likelihood");
-    auto csv = open_csv(program.output(), columns);
+    auto csv = open_csv(output, columns);
     std::optional<io::OutputFile> netcdf_file;
     if (!netcdf_path.empty()) {
       netcdf_file.emplace(netcdf_path);
     }
-    const std::string checkpoint = checkpoint_path.empty() && csv && !csv->in_place()
-                                       ? program.output() + ".checkpoint"
-                                       : checkpoint_path;
+    const std::string checkpoint =
+        checkpoint_path.empty() && csv && !csv->in_place() ? output + ".checkpoint" : checkpoint_path;
     if (checkpoint == "-") {
       throw std::invalid_argument("--checkpoint: value '-': expected a file");
     }
@@ -139,13 +139,9 @@ int main(int argc, char** argv) {
                                            result.stages.size(), tmcmc::describe(result.stop),
                                            advice(result.stop)));
     }
-    report(program, model, result);
-    if (csv) {
-      for (Eigen::Index i = 0; i < result.final.points.rows(); ++i) {
-        const Eigen::VectorXd point = result.final.points.row(i);
-        csv->row(std::span<const double>(point.data(), model.parameter_names.size()),
-                 result.final.log_likelihood[i]);
-      }
+    report_result(report, model, result);
+    for (Eigen::Index i = 0; i < result.final.points.rows(); ++i) {
+      csv.row(Eigen::VectorXd(result.final.points.row(i)), result.final.log_likelihood[i]);
     }
     if (netcdf_file) {
       storage::write_inference_data(*netcdf_file, inference_data(result, model, run_options.seed));

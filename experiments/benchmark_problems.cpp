@@ -20,10 +20,12 @@ constexpr std::uint64_t seed_of_rigs = 2026;
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(
-      "benchmark_problems",
+  CLI::App app(
       "The paper's sampler, the recommended one and independent draws at equal cost on problems with\n"
-      "known evidence: friction, Gaussians, bananas, modes, funnel, plateau, spike, corner, frames.");
+      "known evidence: friction, Gaussians, bananas, modes, funnel, plateau, spike, corner, frames.",
+      "benchmark_problems");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   RunOptions run_options;
   run_options.runs = 10;
@@ -32,20 +34,23 @@ int main(int argc, char** argv) {
   long rigs = 20;
   long evaluations = 0;
   long most_evaluations = 31000;
-  program.add_output("CSV with one row a problem, sampler and number of evaluations");
-  program.add_text("--problem", only, "TEXT", "Only problems whose name begins so, for example 'banana'");
-  program.add_text("--sampler", only_sampler, "TEXT", "Only this sampler, for example 'independent draws'");
-  program.add_number("--rigs", rigs, count(0, 1000),
-                     "Simulated rigs, whose parameters are drawn from the prior");
-  program.add_number("--evaluations", evaluations, count(0, 10000000),
-                     "Only this number of log-likelihoods, from 2000; 0: 3000, 10000, 31000 and 100000");
-  program.add_number("--most-evaluations", most_evaluations, count(3000, 10000000),
-                     "Leaves out larger numbers of log-likelihoods");
-  run_options.add_to(program, 2);
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
+  add_output(app, output, "CSV with one row a problem, sampler and number of evaluations");
+  app.add_option("--problem", only, "Only problems whose name begins so, for example 'banana'")
+      ->type_name("TEXT");
+  app.add_option("--sampler", only_sampler, "Only this sampler, for example 'independent draws'")
+      ->type_name("TEXT");
+  app.add_option("--rigs", rigs, "Simulated rigs, whose parameters are drawn from the prior")
+      ->transform(count(0, 1000));
+  app.add_option("--evaluations", evaluations,
+                 "Only this number of log-likelihoods, from 2000; 0: 3000, 10000, 31000 and 100000")
+      ->transform(count(0, 10000000));
+  app.add_option("--most-evaluations", most_evaluations, "Leaves out larger numbers of log-likelihoods")
+      ->transform(count(3000, 10000000));
+  run_options.add_to(app, 2);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     auto problems = replication::closed_form_problems();
     using replication::ReadingName;
     for (const auto name : {ReadingName::as_published, ReadingName::corrected}) {
@@ -80,18 +85,17 @@ int main(int argc, char** argv) {
       throw std::invalid_argument(fmt::format("--problem: value '{}': expected the name of a problem", only));
     }
 
-    auto csv = open_csv(program.output(), {"problem", "kind", "dimensions", "settings_chosen_on_it",
-                                           "sampler", "evaluations", "runs", "log_evidence", "rms_error",
-                                           "bias", "rms_z", "worst_z", "worst_z_without_warning", "warned",
-                                           "effective_draws", "unfinished", "mode_masses_found"});
-    program.report("{} runs of each problem, seed {}\n", run_options.runs, run_options.seed);
-    program.report("{:<24} {:<18} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>9} {:>6} {:>6}\n", "", "",
-                   "evals", "rms", "bias", "rms z", "worst z", "silent z", "warned", "draws", "unfin.",
-                   "modes");
+    auto csv = open_csv(
+        output, {"problem", "kind", "dimensions", "settings_chosen_on_it", "sampler", "evaluations", "runs",
+                 "log_evidence", "rms_error", "bias", "rms_z", "worst_z", "worst_z_without_warning", "warned",
+                 "effective_draws", "unfinished", "mode_masses_found"});
+    report("{} runs of each problem, seed {}\n", run_options.runs, run_options.seed);
+    report("{:<24} {:<18} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>9} {:>6} {:>6}\n", "", "", "evals",
+           "rms", "bias", "rms z", "worst z", "silent z", "warned", "draws", "unfin.", "modes");
     io::Progress progress("benchmark_problems",
                           static_cast<std::size_t>(chosen_count) * budgets.size() * samplers.size() *
                               static_cast<std::size_t>(run_options.runs),
-                          !program.quiet());
+                          !report.quiet());
     const auto options = run_options.study_options();
     for (std::uint32_t index = 0; index < problems.size(); ++index) {
       auto& p = problems[index];
@@ -103,19 +107,17 @@ int main(int argc, char** argv) {
         for (const long budget : budgets) {
           const auto s = replication::score(
               replication::benchmark_runs(p, sampler, budget, index, options, [&] { progress.advance(); }));
-          program.report(
+          report(
               "{:<24} {:<18} {:>7} {:>9.4f} {:>9.4f} {:>9.2f} {:>9.1f} {:>9.1f} {:>7.3f} {:>9.0f} {:>6.2f} "
               "{:>6}\n",
               p.name, replication::describe(sampler), budget, s.rms_error, s.bias, s.rms_z, s.worst_z,
               s.worst_z_without_warning, s.warned, s.effective_draws, s.unfinished,
               p.mode_masses.empty() ? "" : fmt::format("{:.2f}", s.mode_masses_found));
-          if (csv) {
-            csv->row(p.name, p.name.starts_with("rig ") ? "rig" : "problem", p.problem.prior.dimension(),
-                     p.tuned_on ? "yes" : "no", replication::describe(sampler), budget, run_options.runs,
-                     digits(p.log_evidence), digits(s.rms_error, 6), digits(s.bias, 6), digits(s.rms_z, 6),
-                     digits(s.worst_z, 6), digits(s.worst_z_without_warning, 6), s.warned,
-                     digits(s.effective_draws, 6), s.unfinished, s.mode_masses_found);
-          }
+          csv.row(p.name, p.name.starts_with("rig ") ? "rig" : "problem", p.problem.prior.dimension(),
+                  p.tuned_on ? "yes" : "no", replication::describe(sampler), budget, run_options.runs,
+                  digits(p.log_evidence), digits(s.rms_error, 6), digits(s.bias, 6), digits(s.rms_z, 6),
+                  digits(s.worst_z, 6), digits(s.worst_z_without_warning, 6), s.warned,
+                  digits(s.effective_draws, 6), s.unfinished, s.mode_masses_found);
         }
       }
     }

@@ -22,28 +22,29 @@ constexpr double level = 0.01;  // of the twelve tests of a sampler together (Ho
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(
-      "calibration",
-      "Simulation-based calibration of the published and of the recommended setting of the sampler.");
+  CLI::App app("Simulation-based calibration of the published and of the recommended setting of the sampler.",
+               "calibration");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
   replication::CalibrationOptions options;
   std::string ranks_output;
-  program.add_output("CSV with one row a sampler and parameter: chi^2 of the ranks, p-values, coverage");
-  program.add_file_output("--ranks-output", ranks_output, "CSV of the rank histograms with their 99 % bands");
-  program.add_number("--runs", options.replications, count(), "Simulated data sets");
-  program.add_number("--draws", options.draws, count(1, 1000000),
-                     "Posterior draws that the truth is ranked among");
-  program.add_number("--bins", options.bins, count(2, 1000000),
-                     "Bins of the rank histograms; a divisor of draws + 1");
-  run_options.add_seed_to(program);
-  run_options.add_threads_to(program);
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  physics.add_to(program);
+  add_output(app, output, "CSV with one row a sampler and parameter: chi^2 of the ranks, p-values, coverage");
+  add_output(app, "--ranks-output", ranks_output, "CSV of the rank histograms with their 99 % bands");
+  app.add_option("--runs", options.replications, "Simulated data sets")->transform(count());
+  app.add_option("--draws", options.draws, "Posterior draws that the truth is ranked among")
+      ->transform(count(1, 1000000));
+  app.add_option("--bins", options.bins, "Bins of the rank histograms; a divisor of draws + 1")
+      ->transform(count(2, 1000000));
+  run_options.add_seed_to(app);
+  run_options.add_threads_to(app);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
@@ -54,9 +55,9 @@ int main(int argc, char** argv) {
     recommended.options.infeasible_level = reading.infeasible_log_likelihood;
     recommended.options.diagnose = false;
 
-    auto csv = open_csv(program.output(), {"sampler", "parameter", "chi_squared", "coverage_50",
-                                           "coverage_90", "p_chi_squared", "p_coverage_50", "p_coverage_90",
-                                           "smallest_p_holm", "calibrated", "replications", "unfinished"});
+    auto csv = open_csv(output, {"sampler", "parameter", "chi_squared", "coverage_50", "coverage_90",
+                                 "p_chi_squared", "p_coverage_50", "p_coverage_90", "smallest_p_holm",
+                                 "calibrated", "replications", "unfinished"});
     auto ranks_csv = open_csv(
         ranks_output, {"sampler", "parameter", "place", "count", "expected", "band_low", "band_high"});
     const double n = static_cast<double>(options.replications);
@@ -64,12 +65,11 @@ int main(int argc, char** argv) {
     const boost::math::binomial in_bin(n, 1.0 / bins);
     const double band_low = boost::math::quantile(in_bin, 0.005);
     const double band_high = boost::math::quantile(boost::math::complement(in_bin, 0.005));
-    program.report("{} simulated data sets, {} draws each, seed {}, reading {}\n", options.replications,
-                   options.draws, options.seed, physics.reading_name);
-    program.report("{:<12} {:<22} {:>7} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "", "", "chi^2", "50 %", "90 %",
-                   "p(chi^2)", "p(50 %)", "p(90 %)");
-    io::Progress progress("calibration", 2 * static_cast<std::size_t>(options.replications),
-                          !program.quiet());
+    report("{} simulated data sets, {} draws each, seed {}, reading {}\n", options.replications,
+           options.draws, options.seed, physics.reading_name);
+    report("{:<12} {:<22} {:>7} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "", "", "chi^2", "50 %", "90 %", "p(chi^2)",
+           "p(50 %)", "p(90 %)");
+    io::Progress progress("calibration", 2 * static_cast<std::size_t>(options.replications), !report.quiet());
     std::uint32_t arm_index = 0;
     for (const auto& arm : {published, recommended}) {
       const auto result = replication::calibrate(observations, reading, prior, arm, arm_index++, options,
@@ -91,22 +91,19 @@ int main(int argc, char** argv) {
       const char* verdict = smallest >= level ? "yes" : "no";
       for (std::size_t j = 0; j < histograms.size(); ++j) {
         const auto& h = histograms[j];
-        program.report("{:<12} {:<22} {:>7.1f} {:>8.3f} {:>8.3f} {:>9.2g} {:>9.2g} {:>9.2g}\n", arm.name,
-                       parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90, h.p_chi_squared,
-                       h.p_coverage_50, h.p_coverage_90);
-        if (csv) {
-          csv->row(arm.name, parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90,
-                   digits(h.p_chi_squared, 4), digits(h.p_coverage_50, 4), digits(h.p_coverage_90, 4),
-                   digits(smallest, 4), verdict, options.replications, result.unfinished);
-        }
+        report("{:<12} {:<22} {:>7.1f} {:>8.3f} {:>8.3f} {:>9.2g} {:>9.2g} {:>9.2g}\n", arm.name,
+               parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90, h.p_chi_squared,
+               h.p_coverage_50, h.p_coverage_90);
+        csv.row(arm.name, parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90,
+                digits(h.p_chi_squared, 4), digits(h.p_coverage_50, 4), digits(h.p_coverage_90, 4),
+                digits(smallest, 4), verdict, options.replications, result.unfinished);
         for (std::size_t b = 0; ranks_csv && b < h.counts.size(); ++b) {
           ranks_csv->row(arm.name, parameter_columns[j], (static_cast<double>(b) + 0.5) / bins, h.counts[b],
                          n / bins, band_low, band_high);
         }
       }
-      program.report(
-          "{:<12} smallest p after Holm {:.2g}: calibrated {}; {} of {} runs ended before beta = 1\n",
-          arm.name, smallest, verdict, result.unfinished, options.replications);
+      report("{:<12} smallest p after Holm {:.2g}: calibrated {}; {} of {} runs ended before beta = 1\n",
+             arm.name, smallest, verdict, result.unfinished, options.replications);
     }
     io::commit_all(csv, ranks_csv);
   });

@@ -33,29 +33,28 @@ std::string place_of(const Cell& cell) {
   return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
 }
 
-void report_and_write(const Program& program, const std::vector<Cell>& cells,
-                      std::optional<io::CsvWriter>& csv) {
+void report_and_write(const Report& report, const std::vector<Cell>& cells, OptionalCsv& csv) {
   std::string table;
   for (const Cell& cell : cells) {
     if (cell.table != table) {
       table = cell.table;
-      program.report("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column", "printed",
-                     "ours", "difference", "among replicated studies");
+      report("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column", "printed", "ours",
+             "difference", "among replicated studies");
     }
-    program.report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column,
-                   cell.printed, cell.ours, replication::difference(cell), place_of(cell));
-    if (csv) {
-      csv->row(cell.table, cell.row, cell.column, cell.printed, cell.ours, replication::difference(cell),
-               cell.median, cell.interval.low, cell.interval.high, cell.printed_percentile,
-               cell.our_percentile, cell.p.value, cell.p.standard_error, cell.verdict);
-    }
+    report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column, cell.printed,
+           cell.ours, replication::difference(cell), place_of(cell));
+    csv.row(cell.table, cell.row, cell.column, cell.printed, cell.ours, replication::difference(cell),
+            cell.median, cell.interval.low, cell.interval.high, cell.printed_percentile, cell.our_percentile,
+            cell.p.value, cell.p.standard_error, cell.verdict);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("compare_published", "Tables 1-4 of the paper beside ours, cell by cell.");
+  CLI::App app("Tables 1-4 of the paper beside ours, cell by cell.", "compare_published");
+  Report report(app);
+  std::string output;
   PhysicsOptions physics;
   InputFiles inputs;
   std::string printed_directory = "data/published";
@@ -63,23 +62,22 @@ int main(int argc, char** argv) {
   std::string table3 = "data/generated/table3_pbox_area.csv";
   std::string table4 = "data/generated/table4_iteration_counts.csv";
   std::string replicated;
-  program.add_output(
-      "CSV: table, row, column, printed, ours, difference, median, low, high, printed_percentile, "
-      "our_percentile, p, p_error, verdict");
+  add_output(app, output,
+             "CSV: table, row, column, printed, ours, difference, median, low, high, printed_percentile, "
+             "our_percentile, p, p_error, verdict");
   std::string markdown_output;
-  program.add_file_output("--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
-  program.add_text("--published", printed_directory, "DIR", "Directory of the tables as printed");
-  program.add_input("--table1", table1, "Generated observations");
-  program.add_input("--table3", table3, "Our p-box areas");
-  program.add_input("--table4", table4, "Our iteration counts");
-  program.add_input("--replicated", replicated,
-                    "Studies of replicated_study; without them no intervals and verdicts");
-  inputs.add_prior_to(program);
-  physics.add_to(program);
+  add_output(app, "--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
+  app.add_option("--published", printed_directory, "Directory of the tables as printed")->type_name("DIR");
+  add_input(app, "--table1", table1, "Generated observations");
+  add_input(app, "--table3", table3, "Our p-box areas");
+  add_input(app, "--table4", table4, "Our iteration counts");
+  add_input(app, "--replicated", replicated,
+            "Studies of replicated_study; without them no intervals and verdicts");
+  inputs.add_prior_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto printed = [&](const std::string& file) {
-      program.add_read_file(printed_directory + "/" + file);
       return io::CsvTable::read(printed_directory + "/" + file);
     };
     std::vector<Cell> cells;
@@ -116,15 +114,14 @@ int main(int argc, char** argv) {
       replication::place_among_studies(cells, studies, tables.areas, tables.counts, null_of(studies, tables),
                                        parameter_columns);
     }
-    auto csv = open_csv(program.output(),
-                        {"table", "row", "column", "printed", "ours", "difference", "median", "low", "high",
-                         "printed_percentile", "our_percentile", "p", "p_error", "verdict"});
+    auto csv = open_csv(output, {"table", "row", "column", "printed", "ours", "difference", "median", "low",
+                                 "high", "printed_percentile", "our_percentile", "p", "p_error", "verdict"});
     std::optional<io::OutputFile> markdown_file;
     if (!markdown_output.empty()) {
       markdown_file.emplace(markdown_output);
       markdown_file->write(replication::comparison_markdown(cells));
     }
-    report_and_write(program, cells, csv);
+    report_and_write(report, cells, csv);
     io::commit_all(csv, markdown_file);
   });
 }

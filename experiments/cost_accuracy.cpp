@@ -42,26 +42,29 @@ replication::KnownPosterior known(const estimation::ExactPosterior& posterior) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(
-      "cost_accuracy",
+  CLI::App app(
       "Likelihood evaluations against p-box areas and errors, for settings of the sampler from the\n"
-      "published one to the recommended one, all against the exact posterior.");
+      "published one to the recommended one, all against the exact posterior.",
+      "cost_accuracy");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
   long studies = 4;
   std::string only;
-  program.add_output(
-      "CSV with one row a setting: evaluations, p-box areas, errors of means and log-evidence");
-  program.add_number("--studies", studies, count(1, 1000000),
-                     "K, studies of R runs a setting; areas are given over these");
-  program.add_text("--family", only, "TEXT", "Only settings of this family, for example 'recommended'");
-  run_options.add_to(program, 2);
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  physics.add_to(program);
+  add_output(app, output,
+             "CSV with one row a setting: evaluations, p-box areas, errors of means and log-evidence");
+  app.add_option("--studies", studies, "K, studies of R runs a setting; areas are given over these")
+      ->transform(count(1, 1000000));
+  app.add_option("--family", only, "Only settings of this family, for example 'recommended'")
+      ->type_name("TEXT");
+  run_options.add_to(app, 2);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
@@ -86,13 +89,12 @@ int main(int argc, char** argv) {
     }
     columns.insert(columns.end(), {"log_evidence_bias", "log_evidence_rms", "log_mean_weights_rms",
                                    "standard_error_rms", "runs_with_warning"});
-    auto csv = open_csv(program.output(), columns);
-    program.report("{} studies of {} runs a setting, seed {}, reading {}; exact log-evidence {:.4f}\n",
-                   studies, run_options.runs, run_options.seed, physics.reading_name, truth.log_evidence);
-    program.report("{:<12} {:<28} {:>9} {:>7} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "", "", "evals", "stages",
-                   "area F_mu", "area w_n", "lnZ bias", "lnZ rms", "s.e.");
-    io::Progress progress("cost_accuracy", static_cast<std::size_t>(chosen_count * studies),
-                          !program.quiet());
+    auto csv = open_csv(output, columns);
+    report("{} studies of {} runs a setting, seed {}, reading {}; exact log-evidence {:.4f}\n", studies,
+           run_options.runs, run_options.seed, physics.reading_name, truth.log_evidence);
+    report("{:<12} {:<28} {:>9} {:>7} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "", "", "evals", "stages",
+           "area F_mu", "area w_n", "lnZ bias", "lnZ rms", "s.e.");
+    io::Progress progress("cost_accuracy", static_cast<std::size_t>(chosen_count * studies), !report.quiet());
     for (std::uint32_t s = 0; s < settings.size();
          ++s) {  // a setting has its stream, whatever others are run
       if (!chosen(settings[s])) {
@@ -119,15 +121,13 @@ int main(int argc, char** argv) {
         lowest.push_back(range.lowest);
         highest.push_back(range.highest);
       }
-      program.report("{:<12} {:<28} {:>9.0f} {:>7.1f} {:>10.5f} {:>10.6f} {:>8.3f} {:>8.4f} {:>8.4f}\n",
-                     settings[s].family, settings[s].value, a.evaluations, a.stages, medians[0], medians[1],
-                     a.evidence_bias, a.evidence_rms, a.standard_error_rms);
-      if (csv) {
-        csv->row(settings[s].family, settings[s].value, a.evaluations, a.most_evaluations, a.stages, medians,
-                 lowest, highest, tmcmc::as_span(a.mean_bias), tmcmc::as_span(a.mean_spread),
-                 tmcmc::as_span(a.effective_size), a.evidence_bias, a.evidence_rms, a.weight_evidence_rms,
-                 a.standard_error_rms, a.warned);
-      }
+      report("{:<12} {:<28} {:>9.0f} {:>7.1f} {:>10.5f} {:>10.6f} {:>8.3f} {:>8.4f} {:>8.4f}\n",
+             settings[s].family, settings[s].value, a.evaluations, a.stages, medians[0], medians[1],
+             a.evidence_bias, a.evidence_rms, a.standard_error_rms);
+      csv.row(settings[s].family, settings[s].value, a.evaluations, a.most_evaluations, a.stages, medians,
+              lowest, highest, tmcmc::as_span(a.mean_bias), tmcmc::as_span(a.mean_spread),
+              tmcmc::as_span(a.effective_size), a.evidence_bias, a.evidence_rms, a.weight_evidence_rms,
+              a.standard_error_rms, a.warned);
     }
     io::commit_all(csv);
   });

@@ -22,22 +22,23 @@ struct Largest {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(
-      "criterion_identity",
-      "Both criteria on the same populations and the same random stream: steps, N_eff, CoV, beta.");
+  CLI::App app("Both criteria on the same populations and the same random stream: steps, N_eff, CoV, beta.",
+               "criterion_identity");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
   run_options.runs = 10;
-  program.add_output("CSV with one row a stage of each run of TMCMC, and TMCMC-II beside it");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  run_options.add_to(program);
-  sampler.add_to(program);
-  physics.add_to(program);
+  add_output(app, output, "CSV with one row a stage of each run of TMCMC, and TMCMC-II beside it");
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_to(app);
+  sampler.add_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
     if (!sampler.given("deviation")) {
@@ -49,14 +50,10 @@ int main(int argc, char** argv) {
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
     options.validate();
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"run", "stage", "beta", "step_cov", "step_ess", "step_cov_sample",
-                                           "effective_sample_size", "coefficient_of_variation",
-                                           "samples_over_one_plus_cov_squared",
-                                           "effective_sample_size_sample", "beta_tmcmc", "beta_tmcmc_ii"});
-    }
+    auto csv = open_csv(
+        output, {"run", "stage", "beta", "step_cov", "step_ess", "step_cov_sample", "effective_sample_size",
+                 "coefficient_of_variation", "samples_over_one_plus_cov_squared",
+                 "effective_sample_size_sample", "beta_tmcmc", "beta_tmcmc_ii"});
 
     Largest step_difference, identity_error, path_difference, sample_effect;
     tmcmc::Index stages = 0;
@@ -94,26 +91,24 @@ int main(int argc, char** argv) {
         sample_effect.add(row.step_sample / row.step_cov - 1.0);
         const bool both = i < second.stages.size();
         path.add(both ? second.stages[i].beta / first.stages[i].beta - 1.0 : 1.0);
-        if (csv) {
-          csv->row(r, i + 1, row.beta, row.step_cov, row.step_ess, row.step_sample, row.ess, row.cov,
-                   identity, row.ess_sample, first.stages[i].beta,
-                   both ? second.stages[i].beta : std::numeric_limits<double>::quiet_NaN());
-        }
+        csv.row(r, i + 1, row.beta, row.step_cov, row.step_ess, row.step_sample, row.ess, row.cov, identity,
+                row.ess_sample, first.stages[i].beta,
+                both ? second.stages[i].beta : std::numeric_limits<double>::quiet_NaN());
       }
       path_difference.add(path.value);
       equal_paths += path.value < 1e-9 && first.stages.size() == second.stages.size() ? 1 : 0;
       stages += static_cast<tmcmc::Index>(rows.size());
     }
     io::commit_all(csv);
-    program.report("{} stages of {} runs, N = {}\n", stages, options.runs, reading.sampler.samples);
-    program.report("largest relative difference\n");
-    program.report("  of the steps that CoV = {} and N_eff = {} N choose from one population: {:.1e}\n",
-                   sampler.cov_target, sampler.ess_fraction, step_difference.value);
-    program.report("  of N_eff and N / (1 + CoV^2):                                     {:.1e}\n",
-                   identity_error.value);
-    program.report("  of the steps with standard deviations of N-1 and of N:            {:.1e}\n",
-                   sample_effect.value);
-    program.report(
+    report("{} stages of {} runs, N = {}\n", stages, options.runs, reading.sampler.samples);
+    report("largest relative difference\n");
+    report("  of the steps that CoV = {} and N_eff = {} N choose from one population: {:.1e}\n",
+           sampler.cov_target, sampler.ess_fraction, step_difference.value);
+    report("  of N_eff and N / (1 + CoV^2):                                     {:.1e}\n",
+           identity_error.value);
+    report("  of the steps with standard deviations of N-1 and of N:            {:.1e}\n",
+           sample_effect.value);
+    report(
         "whole runs of TMCMC and TMCMC-II on one random stream: {} of {} have the same path of beta, "
         "largest\n"
         "relative difference {:.1e}\n",

@@ -10,33 +10,31 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("endless_criterion",
-                  "Stages of TMCMC-II as its target N_eff / N goes to 1, where it never ends.");
+  CLI::App app("Stages of TMCMC-II as its target N_eff / N goes to 1, where it never ends.",
+               "endless_criterion");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
   sampler.values["max_stages"] = "200";
   sampler.values["minimum_step"] = "0";  // a step of 0 is what is to be shown
-  program.add_output("CSV: target_fraction, stages, beta, smallest_step, stop");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  run_options.add_seed_to(program);
-  sampler.add_to(program);
-  physics.add_to(program);
+  add_output(app, output, "CSV: target_fraction, stages, beta, smallest_step, stop");
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_seed_to(app);
+  sampler.add_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto problem = interruptible(
         replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading)));
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"target_fraction", "stages", "beta", "smallest_step", "stop"});
-    }
-    program.report("At most {} stages, N = {}\n{:>16} {:>8} {:>10} {:>14}  {}\n", reading.sampler.max_stages,
-                   reading.sampler.samples, "N_eff target / N", "stages", "beta", "smallest step", "end");
+    auto csv = open_csv(output, {"target_fraction", "stages", "beta", "smallest_step", "stop"});
+    report("At most {} stages, N = {}\n{:>16} {:>8} {:>10} {:>14}  {}\n", reading.sampler.max_stages,
+           reading.sampler.samples, "N_eff target / N", "stages", "beta", "smallest step", "end");
     for (const double fraction : {0.5, 0.75, 0.9, 0.95, 0.99, 0.999, 1.0}) {
       const auto arm = replication::paper_arms(reading, sampler.cov_target, fraction)[1];
       const auto result = tmcmc::run(problem, arm.options, {.seed = run_options.seed, .arm = 1});
@@ -45,11 +43,9 @@ int main(int argc, char** argv) {
         smallest = std::min(smallest, stage.step);
       }
       const char* stop = tmcmc::describe(result.stop);
-      program.report("{:>16} {:>8} {:>10.4g} {:>14.3g}  {}\n", fraction, result.stages.size(),
-                     result.final.beta, smallest, stop);
-      if (csv) {
-        csv->row(fraction, result.stages.size(), result.final.beta, smallest, stop);
-      }
+      report("{:>16} {:>8} {:>10.4g} {:>14.3g}  {}\n", fraction, result.stages.size(), result.final.beta,
+             smallest, stop);
+      csv.row(fraction, result.stages.size(), result.final.beta, smallest, stop);
     }
     io::commit_all(csv);
   });

@@ -11,21 +11,23 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program(
-      "evaluate_model",
+  CLI::App app(
       "Model values at points. Columns friction_force_n and frequency_ratio give phase_deg (nan where the\n"
       "motion is not continuous) and limit_force_ratio; the four columns friction_force_n,\n"
       "natural_frequency_hz, phase_noise_deg and frequency_ratio_noise give log_likelihood. Other columns\n"
-      "are passed on.");
+      "are passed on.",
+      "evaluate_model");
+  Report report(app);
+  std::string output = "-";
   InputFiles inputs;
   PhysicsOptions physics;
   std::string points;
-  program.add_required_input("--points", points, "Points: CSV");
-  program.add_output("CSV: the points with the results added", "-");
-  inputs.add_observations_to(program);
-  physics.add_to(program);
+  add_input(app, "--points", points, "Points: CSV")->required();
+  add_output(app, "--output", output, "CSV: the points with the results added");
+  inputs.add_observations_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto table = io::CsvTable::read(points);
     const bool with_phase = table.has("frequency_ratio");
@@ -59,7 +61,7 @@ int main(int argc, char** argv) {
                                       reading.infeasible_log_likelihood));
       columns.push_back("log_likelihood");
     }
-    io::CsvWriter csv(program.output(), columns);
+    io::CsvWriter csv(output, columns);
     for (std::size_t row = 0; row < table.rows(); ++row) {
       std::vector<std::string> cells;
       for (const auto& name : kept) {
@@ -75,8 +77,8 @@ int main(int argc, char** argv) {
       csv.row(cells);
     }
     csv.commit();
-    if (program.output() != "-") {
-      program.report("{} points, reading {}: {}\n", table.rows(), physics.reading_name, program.output());
+    if (output != "-") {
+      report("{} points, reading {}: {}\n", table.rows(), physics.reading_name, output);
     }
   });
 }

@@ -15,89 +15,76 @@ using namespace experiments;
 
 namespace {
 
-void report_parameters(const Program& program, std::optional<io::CsvWriter>& csv,
-                       const estimation::ExactPosterior& posterior,
+void report_parameters(const Report& report, OptionalCsv& csv, const estimation::ExactPosterior& posterior,
                        const estimation::LaplaceApproximation& laplace,
                        const estimation::LeastSquaresFit& fit) {
   const std::array<double, friction::parameter_count> least_squares = {
       fit.friction_force.estimate, fit.natural_frequency.estimate, fit.friction_force.noise_ml,
       fit.natural_frequency.noise_ml};
-  program.report("{:<22} {:>10} {:>10} {:>10} {:>10} {:>10} {:>22} {:>13}\n", "", "mean", "sd", "2.5 %",
-                 "median", "97.5 %", "Laplace mode +- sd", "least squares");
+  report("{:<22} {:>10} {:>10} {:>10} {:>10} {:>10} {:>22} {:>13}\n", "", "mean", "sd", "2.5 %", "median",
+         "97.5 %", "Laplace mode +- sd", "least squares");
   for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
     const auto& exact = posterior.marginal(static_cast<friction::Parameter>(p));
-    std::vector<std::string> quantiles;
-    for (const double level : {0.025, 0.25, 0.5, 0.75, 0.975}) {
-      quantiles.push_back(digits(exact.quantile(level)));
-    }
-    program.report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13}\n",
-                   parameter_columns[p], exact.mean(), exact.standard_deviation(), exact.quantile(0.025),
-                   exact.quantile(0.5), exact.quantile(0.975),
-                   fmt::format("{} +- {}", or_undefined("{:.5f}", laplace.mode[p]),
-                               or_undefined("{:.5f}", laplace.standard_deviation[p])),
-                   or_undefined("{:.5f}", least_squares[p]));
-    if (csv) {
-      csv->row(parameter_columns[p], digits(exact.mean()), digits(exact.standard_deviation()), quantiles,
-               digits(laplace.mode[p], 8), digits(laplace.standard_deviation[p], 8),
-               digits(least_squares[p], 8));
-    }
+    const auto quantile = [&](double level) { return digits(exact.quantile(level)); };
+    report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13}\n", parameter_columns[p],
+           exact.mean(), exact.standard_deviation(), exact.quantile(0.025), exact.quantile(0.5),
+           exact.quantile(0.975),
+           fmt::format("{} +- {}", or_undefined("{:.5f}", laplace.mode[p]),
+                       or_undefined("{:.5f}", laplace.standard_deviation[p])),
+           or_undefined("{:.5f}", least_squares[p]));
+    csv.row(parameter_columns[p], digits(exact.mean()), digits(exact.standard_deviation()), quantile(0.025),
+            quantile(0.25), quantile(0.5), quantile(0.75), quantile(0.975), digits(laplace.mode[p], 8),
+            digits(laplace.standard_deviation[p], 8), digits(least_squares[p], 8));
   }
 }
 
-void compare_samplers(const Program& program, std::optional<io::CsvWriter>& csv,
-                      const replication::GroupedColumns& runs, const estimation::ExactPosterior& posterior) {
-  program.report("\n{:<10} {:<28} {:>10} {:>11} {:>10} {:>10} {:>6}\n", "sampler", "quantity", "exact",
-                 "bias", "+-", "spread", "ESS");
+void compare_samplers(const Report& report, OptionalCsv& csv, const replication::GroupedColumns& runs,
+                      const estimation::ExactPosterior& posterior) {
+  report("\n{:<10} {:<28} {:>10} {:>11} {:>10} {:>10} {:>6}\n", "sampler", "quantity", "exact", "bias", "+-",
+         "spread", "ESS");
   for (const auto& e : replication::errors_of(runs, posterior)) {
-    program.report("{:<10} {:<28} {:>10.5g} {:>+11.3g} {:>10.2g} {:>10.3g} {:>6}\n", e.sampler, e.quantity,
-                   e.exact, e.error.bias, e.error.standard_error, e.error.spread,
-                   std::isfinite(e.effective_size) ? fmt::format("{:.1f}", e.effective_size) : "");
-    if (csv) {
-      csv->row(e.sampler, e.quantity, e.runs, digits(e.exact), digits(e.error.mean), digits(e.error.bias),
-               digits(e.error.standard_error), digits(e.error.spread), digits(e.error.root_mean_square),
-               digits(e.effective_size));
-    }
+    report("{:<10} {:<28} {:>10.5g} {:>+11.3g} {:>10.2g} {:>10.3g} {:>6}\n", e.sampler, e.quantity, e.exact,
+           e.error.bias, e.error.standard_error, e.error.spread,
+           std::isfinite(e.effective_size) ? fmt::format("{:.1f}", e.effective_size) : "");
+    csv.row(e.sampler, e.quantity, e.runs, digits(e.exact), digits(e.error.mean), digits(e.error.bias),
+            digits(e.error.standard_error), digits(e.error.spread), digits(e.error.root_mean_square),
+            digits(e.effective_size));
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("exact_posterior",
-                  "Exact posterior (Eq. 24) by quadrature, and how far the samplers are from it.");
+  CLI::App app("Exact posterior (Eq. 24) by quadrature, and how far the samplers are from it.",
+               "exact_posterior");
+  Report report(app);
   InputFiles inputs;
   PhysicsOptions physics;
   double threshold = 1.086;
   long points = 401, bins = 50;
-  std::string summary_output, runs_input, samplers_output, marginals_output, samples_input, histogram_output;
-  program.add_output("CSV: one row a parameter with moments and quantiles, Laplace and least squares");
-  program.add_file_output("--summary-output", summary_output,
-                          "CSV: quantity, value: log-evidence, its error, Laplace's, P(F_mu > threshold)");
-  program.add_file_output("--marginals-output", marginals_output,
-                          "CSV: parameter, x, density, cdf, laplace_density");
-  program.add_file_output("--samplers-output", samplers_output,
-                          "CSV: what each sampler is off (needs --runs-input)");
-  program.add_file_output("--histogram-output", histogram_output,
-                          "CSV: pooled samples of each sampler (needs --samples-input)");
-  program.add_input("--runs-input", runs_input,
-                    "Runs of a study: what sampling_study writes to --runs-output");
-  program.add_input("--samples-input", samples_input,
-                    "Samples of a study: what sampling_study writes to --output");
-  program.add_number("--exceedance", threshold, non_negative(),
-                     "Friction force whose probability to be exceeded is wanted, N");
-  program.add_number("--points", points, count(2, 1000000), "Grid points of each marginal");
-  program.add_number("--bins", bins, count(1, 1000000), "Bins of each histogram");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  physics.add_to(program);
+  std::string output, summary_output, runs_input, samplers_output, marginals_output, samples_input,
+      histogram_output;
+  add_output(app, output, "CSV: one row a parameter with moments and quantiles, Laplace and least squares");
+  add_output(app, "--summary-output", summary_output,
+             "CSV: quantity, value: log-evidence, its error, Laplace's, P(F_mu > threshold)");
+  add_output(app, "--marginals-output", marginals_output, "CSV: parameter, x, density, cdf, laplace_density");
+  add_output(app, "--samplers-output", samplers_output, "CSV: what each sampler is off (needs --runs-input)");
+  add_output(app, "--histogram-output", histogram_output,
+             "CSV: pooled samples of each sampler (needs --samples-input)");
+  add_input(app, "--runs-input", runs_input, "Runs of a study: what sampling_study writes to --runs-output");
+  add_input(app, "--samples-input", samples_input,
+            "Samples of a study: what sampling_study writes to --output");
+  app.add_option("--exceedance", threshold, "Friction force whose probability to be exceeded is wanted, N")
+      ->transform(non_negative());
+  app.add_option("--points", points, "Grid points of each marginal")->transform(count(2, 1000000));
+  app.add_option("--bins", bins, "Bins of each histogram")->transform(count(1, 1000000));
+  app.get_option("--samplers-output")->needs(app.get_option("--runs-input"));
+  app.get_option("--histogram-output")->needs(app.get_option("--samples-input"));
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
-    if (!samplers_output.empty() && runs_input.empty()) {
-      throw io::InputError("--samplers-output: expected --runs-input with the runs to compare");
-    }
-    if (!histogram_output.empty() && samples_input.empty()) {
-      throw io::InputError("--histogram-output: expected --samples-input with the samples to count");
-    }
+  return report.run(argc, argv, [&] {
     const auto runs =
         runs_input.empty() ? replication::GroupedColumns() : replication::read_estimates(runs_input);
     const auto samples = samples_input.empty()
@@ -110,65 +97,52 @@ int main(int argc, char** argv) {
     const auto posterior =
         exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior);
     const auto fit = estimation::fit_least_squares(observations, reading.physics);
-    estimation::LaplaceApproximation laplace;
-    if (prior.is_box()) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    estimation::LaplaceApproximation laplace{false, {nan, nan, nan, nan}, {nan, nan, nan, nan}, nan};
+    if (prior.is_box()) {  // else the mode would not be that of the likelihood
       laplace = estimation::laplace_approximation(observations, reading.physics, fit,
                                                   bounds_of(prior, "the Laplace approximation"));
-    } else {  // its mode would not be that of the likelihood
-      laplace.mode.fill(std::numeric_limits<double>::quiet_NaN());
-      laplace.standard_deviation = laplace.mode;
-      laplace.log_evidence = laplace.mode[0];
     }
-    const double error = posterior.relative_error();
     const double exceedance = posterior.marginal(friction::friction_force).exceedance(threshold);
-
-    auto csv = open_csv(program.output(), {"parameter", "mean", "sd", "q025", "q25", "q50", "q75", "q975",
-                                           "laplace_mode", "laplace_sd", "least_squares"});
+    auto csv = open_csv(output, {"parameter", "mean", "sd", "q025", "q25", "q50", "q75", "q975",
+                                 "laplace_mode", "laplace_sd", "least_squares"});
     auto summary = open_csv(summary_output, {"quantity", "value"});
     auto marginals = open_csv(marginals_output, {"parameter", "x", "density", "cdf", "laplace_density"});
     auto accuracies =
         open_csv(samplers_output, {"sampler", "quantity", "runs", "exact", "mean", "bias",
                                    "bias_standard_error", "spread", "rmse", "effective_sample_size"});
     auto histograms = open_csv(histogram_output, {"sampler", "parameter", "low", "high", "density"});
-
-    program.report("Exact posterior of {} ({} observations, reading {})\n", inputs.observations,
-                   observations.size(), physics.reading_name);
-    report_parameters(program, csv, posterior, laplace, fit);
-    program.report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {}\n",
-                   posterior.log_evidence(), std::max(error, 1e-12),
-                   or_undefined("{:.3f}", laplace.log_evidence));
+    report("Exact posterior of {} ({} observations, reading {})\n", inputs.observations, observations.size(),
+           physics.reading_name);
+    report_parameters(report, csv, posterior, laplace, fit);
+    report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {}\n",
+           posterior.log_evidence(), std::max(posterior.relative_error(), 1e-12),
+           or_undefined("{:.3f}", laplace.log_evidence));
     if (!prior.is_box()) {
-      program.report(
-          "The Laplace approximation is that of uniform priors, and least squares know no prior.\n");
+      report("The Laplace approximation is that of uniform priors, and least squares know no prior.\n");
     }
     for (const auto* block : {&fit.friction_force, &fit.natural_frequency}) {
       if (block->fitted_noise != estimation::FittedNoise::determined) {
-        program.report("least squares of {}: the noise is undefined: {}\n",
-                       block == &fit.friction_force ? "F_mu" : "omega_n", describe(block->fitted_noise));
+        report("least squares of {}: the noise is undefined: {}\n",
+               block == &fit.friction_force ? "F_mu" : "omega_n", describe(block->fitted_noise));
       }
     }
-    program.report("P(F_mu > {} N) = {:.4g}\n", threshold, exceedance);
-    if (summary) {
-      summary->row("log_evidence", digits(posterior.log_evidence()));
-      summary->row("log_evidence_error", digits(error, 1));
-      summary->row("laplace_log_evidence", digits(laplace.log_evidence, 8));
-      summary->row("exceedance_threshold_n", threshold);
-      summary->row("exceedance_probability", digits(exceedance, 8));
-    }
+    report("P(F_mu > {} N) = {:.4g}\n", threshold, exceedance);
+    summary.row("log_evidence", digits(posterior.log_evidence()));
+    summary.row("log_evidence_error", digits(posterior.relative_error(), 1));
+    summary.row("laplace_log_evidence", digits(laplace.log_evidence, 8));
+    summary.row("exceedance_threshold_n", threshold);
+    summary.row("exceedance_probability", digits(exceedance, 8));
     if (!runs_input.empty()) {
-      compare_samplers(program, accuracies, runs, posterior);
+      compare_samplers(report, accuracies, runs, posterior);
     }
-    if (marginals) {
-      for (const auto& m : replication::marginal_points(posterior, laplace, points)) {
-        marginals->row(parameter_columns[m.parameter], digits(m.x), digits(m.density), digits(m.cdf),
-                       digits(m.laplace_density, 8));
-      }
+    for (const auto& m : replication::marginal_points(posterior, laplace, points)) {
+      marginals.row(parameter_columns[m.parameter], digits(m.x), digits(m.density), digits(m.cdf),
+                    digits(m.laplace_density, 8));
     }
-    if (histograms) {
-      for (const auto& bin : replication::sample_histograms(samples, posterior, bins)) {
-        histograms->row(bin.sampler, parameter_columns[bin.parameter], digits(bin.low), digits(bin.high),
-                        digits(bin.density));
-      }
+    for (const auto& bin : replication::sample_histograms(samples, posterior, bins)) {
+      histograms.row(bin.sampler, parameter_columns[bin.parameter], digits(bin.low), digits(bin.high),
+                     digits(bin.density));
     }
     io::commit_all(csv, summary, marginals, accuracies, histograms);
   });

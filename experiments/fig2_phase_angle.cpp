@@ -10,25 +10,27 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("fig2_phase_angle",
-                  "Phase angle over the frequency ratio, and Den Hartog's boundary (Figure 2).");
+  CLI::App app("Phase angle over the frequency ratio, and Den Hartog's boundary (Figure 2).",
+               "fig2_phase_angle");
+  Report report(app);
+  std::string output;
   PhysicsOptions physics;
   InputFiles inputs;
   double friction_force = 1.086;
   double lowest = 0.05;
   double highest = 2.0;
   long points = 1951;
-  program.add_output(
-      "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio; "
-      "phase_fitted_deg and fitted_force_n by least squares");
-  program.add_number("--friction-force", friction_force, non_negative(), "F_mu, N");
-  program.add_number("--from", lowest, positive(), "Smallest frequency ratio");
-  program.add_number("--to", highest, positive(), "Largest frequency ratio");
-  program.add_number("--points", points, count(2, 1000000), "Points of the curves");
-  inputs.add_observations_to(program);
-  physics.add_to(program);
+  add_output(app, output,
+             "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio; "
+             "phase_fitted_deg and fitted_force_n by least squares");
+  app.add_option("--friction-force", friction_force, "F_mu, N")->transform(non_negative());
+  app.add_option("--from", lowest, "Smallest frequency ratio")->transform(positive());
+  app.add_option("--to", highest, "Largest frequency ratio")->transform(positive());
+  app.add_option("--points", points, "Points of the curves")->transform(count(2, 1000000));
+  inputs.add_observations_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     if (!(lowest < highest)) {
       throw io::InputError(
           fmt::format("--to: value '{}': expected a number above --from {}", highest, lowest));
@@ -36,8 +38,8 @@ int main(int argc, char** argv) {
     const auto reading = physics.reading();
     const auto fit = estimation::fit_least_squares(read_observations(inputs.observations), reading.physics);
     const double fitted_force = std::stod(digits(fit.friction_force.estimate, 6));  // of Ceres
-    auto csv = open_csv(program.output(), {"frequency_ratio", "phase_deg", "boundary_phase_deg",
-                                           "limit_force_ratio", "phase_fitted_deg", "fitted_force_n"});
+    auto csv = open_csv(output, {"frequency_ratio", "phase_deg", "boundary_phase_deg", "limit_force_ratio",
+                                 "phase_fitted_deg", "fitted_force_n"});
     double continuous_from = highest;
     double smallest_limit = std::numeric_limits<double>::infinity();
     for (long i = 0; i < points; ++i) {
@@ -51,14 +53,12 @@ int main(int argc, char** argv) {
         continuous_from = r;
       }
       smallest_limit = std::min(smallest_limit, r >= 0.6 ? c.limit_force_ratio : smallest_limit);
-      if (csv) {
-        csv->row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio,
-                 friction::phase_deg(c, fitted_force / reading.physics.driving_force_n), fitted_force);
-      }
+      csv.row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio,
+              friction::phase_deg(c, fitted_force / reading.physics.driving_force_n), fitted_force);
     }
     io::commit_all(csv);
-    program.report("F_mu = {} N (force ratio {:.4f}): continuous motion from r = {:.3f} on\n", friction_force,
-                   friction_force / reading.physics.driving_force_n, continuous_from);
-    program.report("smallest limit of the force ratio for r >= 0.6: {:.4f}\n", smallest_limit);
+    report("F_mu = {} N (force ratio {:.4f}): continuous motion from r = {:.3f} on\n", friction_force,
+           friction_force / reading.physics.driving_force_n, continuous_from);
+    report("smallest limit of the force ratio for r >= 0.6: {:.4f}\n", smallest_limit);
   });
 }

@@ -10,23 +10,20 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("fig3_pboxes",
-                  "Bounds of the ECDFs of all runs, for each sampler and parameter (Figure 3).");
+  CLI::App app("Bounds of the ECDFs of all runs, for each sampler and parameter (Figure 3).", "fig3_pboxes");
+  Report report(app);
+  std::string output;
   std::string input = "data/generated/sampling_study_samples.csv";
   long points = 401;
-  program.add_output("CSV: sampler, parameter, x, lower, upper");
-  program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
-  program.add_number("--points", points, count(2, 1000000),
-                     "Grid points between the smallest and the largest sample");
+  add_output(app, output, "CSV: sampler, parameter, x, lower, upper");
+  add_input(app, "--input", input, "Samples: CSV with columns sampler, run and parameters");
+  app.add_option("--points", points, "Grid points between the smallest and the largest sample")
+      ->transform(count(2, 1000000));
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto samples = read_samples(input);
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(), std::vector<std::string>{"sampler", "parameter", "x", "lower", "upper"});
-    }
-    program.report("{:<12} {:<24} {:>12} {:>12} {:>14}\n", "sampler", "parameter", "smallest", "largest",
-                   "area");
+    auto csv = open_csv(output, {"sampler", "parameter", "x", "lower", "upper"});
+    report("{:<12} {:<24} {:>12} {:>12} {:>14}\n", "sampler", "parameter", "smallest", "largest", "area");
     for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
       for (std::size_t c = 0; c < samples.columns.size(); ++c) {
         std::vector<pbox::Ecdf> ecdfs;
@@ -36,8 +33,8 @@ int main(int argc, char** argv) {
         const auto box = pbox::envelope(ecdfs);
         const double low = box.x.front();
         const double high = box.x.back();
-        program.report("{:<12} {:<24} {:>12.5g} {:>12.5g} {:>14.6g}\n", samples.samplers[s],
-                       samples.columns[c], low, high, pbox::area(box));
+        report("{:<12} {:<24} {:>12.5g} {:>12.5g} {:>14.6g}\n", samples.samplers[s], samples.columns[c], low,
+               high, pbox::area(box));
         for (long i = 0; csv && i < points; ++i) {
           const double x =
               i == points - 1 ? high

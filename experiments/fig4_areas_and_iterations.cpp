@@ -10,33 +10,28 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("fig4_areas_and_iterations",
-                  "Bars of Figure 4: p-box areas and iteration counts, printed beside reproduced.");
+  CLI::App app("Bars of Figure 4: p-box areas and iteration counts, printed beside reproduced.",
+               "fig4_areas_and_iterations");
+  Report report(app);
+  std::string output;
   std::string areas = "data/generated/table3_pbox_area.csv";
   std::string counts = "data/generated/table4_iteration_counts.csv";
   std::string printed_areas = published("table3_pbox_area.csv");
   std::string printed_counts = published("table4_iteration_counts.csv");
-  program.add_output("CSV: panel, source, category, one column a sampler");
-  program.add_input("--areas", areas, "Table 3 as reproduced");
-  program.add_input("--counts", counts, "Table 4 as reproduced");
-  program.add_input("--printed-areas", printed_areas, "Table 3 as printed");
-  program.add_input("--printed-counts", printed_counts, "Table 4 as printed");
+  add_output(app, output, "CSV: panel, source, category, one column a sampler");
+  add_input(app, "--areas", areas, "Table 3 as reproduced");
+  add_input(app, "--counts", counts, "Table 4 as reproduced");
+  add_input(app, "--printed-areas", printed_areas, "Table 3 as printed");
+  add_input(app, "--printed-counts", printed_counts, "Table 4 as printed");
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const std::vector<std::string> samplers = {"TMCMC", "TMCMC-II"};
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"panel", "source", "category", samplers[0], samplers[1]});
-    }
-    program.report("{:<12} {:<10} {:<22} {:>12} {:>12}\n", "panel", "source", "category", samplers[0],
-                   samplers[1]);
+    auto csv = open_csv(output, {"panel", "source", "category", samplers[0], samplers[1]});
+    report("{:<12} {:<10} {:<22} {:>12} {:>12}\n", "panel", "source", "category", samplers[0], samplers[1]);
     const auto add = [&](const char* panel, const char* source, const std::string& category, double first,
                          double second) {
-      program.report("{:<12} {:<10} {:<22} {:>12.5g} {:>12.5g}\n", panel, source, category, first, second);
-      if (csv) {
-        csv->row(panel, source, category, first, second);
-      }
+      report("{:<12} {:<10} {:<22} {:>12.5g} {:>12.5g}\n", panel, source, category, first, second);
+      csv.row(panel, source, category, first, second);
     };
     const auto add_areas = [&](const char* source, const std::string& path) {
       const auto table = io::CsvTable::read(path);

@@ -12,13 +12,15 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("fig5_tempering",
-                  "Tempering parameter over the stages of all runs (promised in the abstract).");
+  CLI::App app("Tempering parameter over the stages of all runs (promised in the abstract).",
+               "fig5_tempering");
+  Report report(app);
+  std::string output;
   std::string input = "data/generated/sampling_study_stages.csv";
-  program.add_output("CSV: sampler, run, stage (from 0), beta");
-  program.add_input("--input", input, "Stages: CSV with columns sampler, run, stage, beta");
+  add_output(app, output, "CSV: sampler, run, stage (from 0), beta");
+  add_input(app, "--input", input, "Stages: CSV with columns sampler, run, stage, beta");
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto table = io::CsvTable::read(input);
     const auto samplers = table.text("sampler");
     const auto runs = table.integers("run");
@@ -31,10 +33,7 @@ int main(int argc, char** argv) {
       keys.emplace_back(samplers[row], runs[row], stages[row]);
     }
     require_once(table, keys, "stage", "each stage once a run");
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(), std::vector<std::string>{"sampler", "run", "stage", "beta"});
-    }
+    auto csv = open_csv(output, {"sampler", "run", "stage", "beta"});
     std::map<std::pair<std::string, long>, std::vector<double>> by_stage;
     for (std::size_t row = 0; row < betas.size(); ++row) {
       by_stage[{samplers[row], stages[row]}].push_back(betas[row]);
@@ -45,13 +44,13 @@ int main(int argc, char** argv) {
         csv->row(samplers[row], runs[row], stages[row], betas[row]);
       }
     }
-    program.report("{:<12} {:>6} {:>6} {:>12} {:>12} {:>12}\n", "sampler", "stage", "runs", "lowest beta",
-                   "median", "highest");
+    report("{:<12} {:>6} {:>6} {:>12} {:>12} {:>12}\n", "sampler", "stage", "runs", "lowest beta", "median",
+           "highest");
     for (auto& [key, values] : by_stage) {
       std::sort(values.begin(), values.end());
       const std::size_t n = values.size();
-      program.report("{:<12} {:>6} {:>6} {:>12.4g} {:>12.4g} {:>12.4g}\n", key.first, key.second, n,
-                     values.front(), 0.5 * (values[(n - 1) / 2] + values[n / 2]), values.back());
+      report("{:<12} {:>6} {:>6} {:>12.4g} {:>12.4g} {:>12.4g}\n", key.first, key.second, n, values.front(),
+             0.5 * (values[(n - 1) / 2] + values[n / 2]), values.back());
     }
     io::commit_all(csv);
   });

@@ -11,29 +11,30 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("fig9_null_distributions",
-                  "Distributions of areas and iteration counts over replicated studies.");
+  CLI::App app("Distributions of areas and iteration counts over replicated studies.",
+               "fig9_null_distributions");
+  Report report(app);
+  std::string output;
   std::string replicated = "data/generated/replicated_study.csv";
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");
   std::string counts_output, printed_output, pairs_output;
-  program.add_output("CSV: sampler, parameter, area, cumulative");
-  program.add_file_output("--counts-output", counts_output,
-                          "CSV: sampler, iterations, runs, share_of_studies, printed");
-  program.add_file_output("--printed-output", printed_output,
-                          "CSV: sampler, parameter, printed, low, high, p");
-  program.add_file_output("--pairs-output", pairs_output,
-                          "CSV: areas of the friction force under both samplers, a row a study");
-  program.add_input("--replicated", replicated, "Studies written by replicated_study");
-  program.add_input("--table3", table3, "Table 3 as printed");
-  program.add_input("--table4", table4, "Table 4 as printed");
+  add_output(app, output, "CSV: sampler, parameter, area, cumulative");
+  add_output(app, "--counts-output", counts_output,
+             "CSV: sampler, iterations, runs, share_of_studies, printed");
+  add_output(app, "--printed-output", printed_output, "CSV: sampler, parameter, printed, low, high, p");
+  add_output(app, "--pairs-output", pairs_output,
+             "CSV: areas of the friction force under both samplers, a row a study");
+  add_input(app, "--replicated", replicated, "Studies written by replicated_study");
+  add_input(app, "--table3", table3, "Table 3 as printed");
+  add_input(app, "--table4", table4, "Table 4 as printed");
   TableOptions table_options;
-  table_options.add_to(program);
+  table_options.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto printed = read_printed_tables(table3, table4);
     const auto studies = read_studies(replicated, printed);
-    auto csv = open_csv(program.output(), {"sampler", "parameter", "area", "cumulative"});
+    auto csv = open_csv(output, {"sampler", "parameter", "area", "cumulative"});
     auto counts_csv =
         open_csv(counts_output, {"sampler", "iterations", "runs", "share_of_studies", "printed"});
     auto printed_csv = open_csv(printed_output, {"sampler", "parameter", "printed", "low", "high", "p"});
@@ -46,11 +47,9 @@ int main(int argc, char** argv) {
     const auto null = null_of(studies, printed);
     for (const auto& v : replication::judge_areas(studies, printed.areas, null)) {
       const auto& parameter = parameter_columns[v.parameter];
-      program.report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n",
-                     v.sampler, parameter, v.printed, v.median, v.interval.low, v.interval.high, v.p.value);
-      if (printed_csv) {
-        printed_csv->row(v.sampler, parameter, v.printed, v.interval.low, v.interval.high, v.p.value);
-      }
+      report("{:<10} {:<22} printed {:.5g}, median {:.5g}, 95 % {:.5g} to {:.5g}, p = {:.3g}\n", v.sampler,
+             parameter, v.printed, v.median, v.interval.low, v.interval.high, v.p.value);
+      printed_csv.row(v.sampler, parameter, v.printed, v.interval.low, v.interval.high, v.p.value);
       std::vector<double> areas;
       for (const auto& s : replication::studies_of(studies, v.sampler)) {
         areas.push_back(s.areas[v.parameter]);
@@ -79,15 +78,13 @@ int main(int argc, char** argv) {
         }
         const auto mark = column.counts.find(iterations);
         for (const auto& [runs, number] : by_runs) {
-          if (counts_csv) {
-            counts_csv->row(column.sampler, iterations, runs, number / static_cast<double>(of_sampler.size()),
-                            mark == column.counts.end() ? 0 : mark->second);
-          }
+          counts_csv.row(column.sampler, iterations, runs, number / static_cast<double>(of_sampler.size()),
+                         mark == column.counts.end() ? 0 : mark->second);
         }
       }
     }
     const auto report_test = [&](const std::string& what, const replication::DevianceTest& test) {
-      program.report(
+      report(
           "{:<10} Table 4: deviance {:.3g}, 95 % of tables below {:.3g}, p = {:.3g} (standard error "
           "{:.1g})\n",
           what, test.statistic, test.critical, test.p.value, test.p.standard_error);

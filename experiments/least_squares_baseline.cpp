@@ -13,80 +13,69 @@ using namespace experiments;
 
 namespace {
 
-void report(const Program& program, const char* name, const char* unit, const estimation::BlockFit& fit) {
-  program.report("{} = {:.6g} {} +- {} (noise as given, {:.4g}) +- {} (noise as fitted, {})\n", name,
-                 fit.estimate, unit, or_undefined("{:.3g}", fit.standard_error), fit.noise_given,
-                 or_undefined("{:.3g}", fit.standard_error_ml), or_undefined("{:.4g}", fit.noise_ml));
+void report_fit(const Report& report, const char* name, const char* unit, const estimation::BlockFit& fit) {
+  report("{} = {:.6g} {} +- {} (noise as given, {:.4g}) +- {} (noise as fitted, {})\n", name, fit.estimate,
+         unit, or_undefined("{:.3g}", fit.standard_error), fit.noise_given,
+         or_undefined("{:.3g}", fit.standard_error_ml), or_undefined("{:.4g}", fit.noise_ml));
   if (fit.fitted_noise != estimation::FittedNoise::determined) {
-    program.report("  the fitted noise is undefined: {}\n", describe(fit.fitted_noise));
+    report("  the fitted noise is undefined: {}\n", describe(fit.fitted_noise));
   }
-  program.report("  chi^2 = {:.3f} on {} {}, reduced {}; {} iterations; {} of {} starts agree, {} {}{}\n",
-                 fit.chi_squared, fit.residuals.size(),
-                 fit.residuals.size() == 1 ? "observation" : "observations",
-                 or_undefined("{:.3f}", fit.reduced_chi_squared), fit.iterations, fit.agreed, fit.starts,
-                 fit.distinct_minima, fit.distinct_minima == 1 ? "minimum" : "local minima",
-                 fit.at_bound ? "; AT A BOUND" : "");
+  report("  chi^2 = {:.3f} on {} {}, reduced {}; {} iterations; {} of {} starts agree, {} {}{}\n",
+         fit.chi_squared, fit.residuals.size(), fit.residuals.size() == 1 ? "observation" : "observations",
+         or_undefined("{:.3f}", fit.reduced_chi_squared), fit.iterations, fit.agreed, fit.starts,
+         fit.distinct_minima, fit.distinct_minima == 1 ? "minimum" : "local minima",
+         fit.at_bound ? "; AT A BOUND" : "");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("least_squares_baseline",
-                  "Ceres least-squares fit of friction force and natural frequency.");
+  CLI::App app("Ceres least-squares fit of friction force and natural frequency.", "least_squares_baseline");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   estimation::LeastSquaresOptions options;
   std::string residuals_output;
-  program.add_output("CSV: one row a parameter with estimate, standard errors, chi^2 and how the fit went");
-  program.add_file_output("--residuals-output", residuals_output,
-                          "CSV of the residuals, one row an observation");
-  inputs.add_observations_to(program);
-  program.add_number("--phase-noise", options.phase_noise_deg, positive(), "sigma of the phase angle, deg");
-  program.add_number("--frequency-ratio-noise", options.frequency_ratio_noise, positive(),
-                     "sigma of the frequency ratio");
-  program.add_number("--starts", options.starts, count(1, 1000), "Starting points");
-  physics.add_to(program);
+  add_output(app, output,
+             "CSV: one row a parameter with estimate, standard errors, chi^2 and how the fit went");
+  add_output(app, "--residuals-output", residuals_output, "CSV of the residuals, one row an observation");
+  inputs.add_observations_to(app);
+  app.add_option("--phase-noise", options.phase_noise_deg, "sigma of the phase angle, deg")
+      ->transform(positive());
+  app.add_option("--frequency-ratio-noise", options.frequency_ratio_noise, "sigma of the frequency ratio")
+      ->transform(positive());
+  app.add_option("--starts", options.starts, "Starting points")->transform(count(1, 1000));
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
-    std::optional<io::CsvWriter> csv, residuals;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"parameter", "estimate", "standard_error", "standard_error_ml",
-                                           "sigma_given", "chi_squared", "reduced_chi_squared", "iterations",
-                                           "starts", "agreed", "distinct_minima", "at_bound"});
-    }
-    if (!residuals_output.empty()) {
-      residuals.emplace(residuals_output,
-                        std::vector<std::string>{"index", "phase_residual_deg", "frequency_ratio_residual"});
-    }
+    auto csv = open_csv(
+        output, {"parameter", "estimate", "standard_error", "standard_error_ml", "sigma_given", "chi_squared",
+                 "reduced_chi_squared", "iterations", "starts", "agreed", "distinct_minima", "at_bound"});
+    auto residuals = open_csv(residuals_output, {"index", "phase_residual_deg", "frequency_ratio_residual"});
     const auto fit = estimation::fit_least_squares(observations, reading.physics, options);
-    report(program, "F_mu", "N", fit.friction_force);
-    report(program, "omega_n", "Hz", fit.natural_frequency);
-    program.report("largest log-likelihood {}\n", or_undefined("{:.4f}", fit.log_likelihood()));
+    report_fit(report, "F_mu", "N", fit.friction_force);
+    report_fit(report, "omega_n", "Hz", fit.natural_frequency);
+    report("largest log-likelihood {}\n", or_undefined("{:.4f}", fit.log_likelihood()));
     const double n = static_cast<double>(observations.size());
     const auto write = [&](const std::string& location, const std::string& noise,
                            const estimation::BlockFit& block) {
-      csv->row(location, digits(block.estimate), digits(block.standard_error),
-               digits(block.standard_error_ml), block.noise_given, digits(block.chi_squared),
-               digits(block.reduced_chi_squared), block.iterations, block.starts, block.agreed,
-               block.distinct_minima, block.at_bound ? 1 : 0);
+      csv.row(location, digits(block.estimate), digits(block.standard_error), digits(block.standard_error_ml),
+              block.noise_given, digits(block.chi_squared), digits(block.reduced_chi_squared),
+              block.iterations, block.starts, block.agreed, block.distinct_minima, block.at_bound ? 1 : 0);
       // Fisher information of a Normal standard deviation: 2 n / sigma^2.
-      csv->row(noise, digits(block.noise_ml), digits(block.noise_given / std::sqrt(2.0 * n)),
-               digits(block.noise_ml / std::sqrt(2.0 * n)), block.noise_given, digits(block.chi_squared),
-               digits(block.reduced_chi_squared), block.iterations, block.starts, block.agreed,
-               block.distinct_minima, block.at_bound ? 1 : 0);
+      csv.row(noise, digits(block.noise_ml), digits(block.noise_given / std::sqrt(2.0 * n)),
+              digits(block.noise_ml / std::sqrt(2.0 * n)), block.noise_given, digits(block.chi_squared),
+              digits(block.reduced_chi_squared), block.iterations, block.starts, block.agreed,
+              block.distinct_minima, block.at_bound ? 1 : 0);
     };
-    if (csv) {
-      write(parameter_columns[0], parameter_columns[2], fit.friction_force);
-      write(parameter_columns[1], parameter_columns[3], fit.natural_frequency);
-    }
-    if (residuals) {
-      for (std::size_t i = 0; i < observations.size(); ++i) {
-        residuals->row(i + 1, digits(fit.friction_force.residuals[i]),
-                       digits(fit.natural_frequency.residuals[i]));
-      }
+    write(parameter_columns[0], parameter_columns[2], fit.friction_force);
+    write(parameter_columns[1], parameter_columns[3], fit.natural_frequency);
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      residuals.row(i + 1, digits(fit.friction_force.residuals[i]),
+                    digits(fit.natural_frequency.residuals[i]));
     }
     io::commit_all(csv, residuals);
   });

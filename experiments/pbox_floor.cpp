@@ -34,28 +34,29 @@ void write_pboxes(io::CsvWriter& csv, const replication::Ecdfs& ecdfs, long poin
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("pbox_floor",
-                  "P-box areas (Eq. 25) of independent exact draws: the floor below any sampler's.");
+  CLI::App app("P-box areas (Eq. 25) of independent exact draws: the floor below any sampler's.",
+               "pbox_floor");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
   long samples = 1000, studies = 100, points = 401;
   std::string pbox_output, summary_output;
-  program.add_output("CSV of the areas: study and one column a parameter");
-  program.add_file_output("--pbox-output", pbox_output,
-                          "CSV of the p-boxes of study 0, in the columns of fig3_pboxes");
-  program.add_file_output(
-      "--summary-output", summary_output,
-      "CSV of the areas' quantiles over the studies: probability and one column a parameter");
-  program.add_number("--samples", samples, count(2), "N, draws a run");
-  program.add_number("--studies", studies, count(), "K, studies");
-  program.add_number("--points", points, count(2, 1000000), "Grid points of each p-box");
-  run_options.add_to(program);
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  physics.add_to(program);
+  add_output(app, output, "CSV of the areas: study and one column a parameter");
+  add_output(app, "--pbox-output", pbox_output,
+             "CSV of the p-boxes of study 0, in the columns of fig3_pboxes");
+  add_output(app, "--summary-output", summary_output,
+             "CSV of the areas' quantiles over the studies: probability and one column a parameter");
+  app.add_option("--samples", samples, "N, draws a run")->transform(count(2));
+  app.add_option("--studies", studies, "K, studies")->transform(count());
+  app.add_option("--points", points, "Grid points of each p-box")->transform(count(2, 1000000));
+  run_options.add_to(app);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
@@ -64,13 +65,13 @@ int main(int argc, char** argv) {
         exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior);
     std::vector<std::string> columns = {"study"};
     columns.insert(columns.end(), parameter_columns.begin(), parameter_columns.end());
-    auto csv = open_csv(program.output(), columns);
+    auto csv = open_csv(output, columns);
     auto pbox_csv = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper"});
     columns.front() = "probability";
     auto summary_csv = open_csv(summary_output, columns);
     std::vector<std::vector<double>> areas(parameter_columns.size(),
                                            std::vector<double>(static_cast<std::size_t>(studies)));
-    io::Progress progress("pbox_floor", static_cast<std::size_t>(studies), !program.quiet());
+    io::Progress progress("pbox_floor", static_cast<std::size_t>(studies), !report.quiet());
     tmcmc::for_each_block(studies, 1, options.threads, [&](auto, auto begin, auto) {
       const auto ecdfs = replication::exact_runs(posterior, options.seed, static_cast<std::uint32_t>(begin),
                                                  run_options.runs, samples);
@@ -79,9 +80,9 @@ int main(int argc, char** argv) {
       }
       progress.advance();
     });
-    program.report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n",
-                   run_options.runs, samples, studies, options.seed, physics.reading_name);
-    program.report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
+    report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n", run_options.runs,
+           samples, studies, options.seed, physics.reading_name);
+    report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
     const std::array<double, 3> probabilities = {0.5, 0.025, 0.975};
     std::array<std::array<double, friction::parameter_count>, 3> quantiles{};
     for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
@@ -90,8 +91,8 @@ int main(int argc, char** argv) {
       for (std::size_t q = 0; q < quantiles.size(); ++q) {
         quantiles[q][p] = statistics::sample_quantile(sorted, probabilities[q]);
       }
-      program.report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], quantiles[0][p],
-                     quantiles[1][p], quantiles[2][p]);
+      report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], quantiles[0][p], quantiles[1][p],
+             quantiles[2][p]);
     }
     for (std::size_t q = 0; summary_csv && q < quantiles.size(); ++q) {
       summary_csv->row(probabilities[q], quantiles[q]);

@@ -10,38 +10,12 @@
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"
-#include "replication/study.hpp"
+#include "replication/exact_runs.hpp"
+#include "replication/noise_priors.hpp"
 
 using namespace experiments;
 
 namespace {
-
-struct NamedPrior {
-  std::string name;
-  tmcmc::Prior prior;
-};
-
-/// Table 2 with three kinds of noise levels.
-std::vector<NamedPrior> priors_of(const tmcmc::Prior& box) {
-  std::vector<NamedPrior> priors;
-  for (const char* noise : {"uniform", "log_uniform", "half_normal"}) {
-    std::vector<tmcmc::Parameter> parameters;
-    for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
-      const double low = box.lower()[static_cast<Eigen::Index>(p)];
-      const double high = box.upper()[static_cast<Eigen::Index>(p)];
-      const bool is_noise = p == friction::phase_noise || p == friction::frequency_ratio_noise;
-      auto marginal = tmcmc::Marginal::uniform(low, high);
-      if (is_noise && noise == std::string("log_uniform")) {
-        marginal = tmcmc::Marginal::log_uniform(low, high);
-      } else if (is_noise && noise == std::string("half_normal")) {
-        marginal = tmcmc::Marginal::half_normal(0.5 * high);
-      }
-      parameters.push_back({parameter_columns[p], "", marginal});
-    }
-    priors.push_back({noise, tmcmc::Prior(parameters)});
-  }
-  return priors;
-}
 
 std::vector<pbox::Ecdf> ecdfs_of(const std::vector<replication::Run>& runs, std::size_t parameter) {
   std::vector<pbox::Ecdf> ecdfs;
@@ -50,22 +24,6 @@ std::vector<pbox::Ecdf> ecdfs_of(const std::vector<replication::Run>& runs, std:
     ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()));
   }
   return ecdfs;
-}
-
-/// Area of the p-box of as many sets of independent exact draws of one parameter.
-double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed, std::uint32_t study,
-                  long runs, long samples) {
-  std::vector<pbox::Ecdf> ecdfs;
-  for (long run = 0; run < runs; ++run) {
-    tmcmc::RandomStream stream({.seed = seed, .study = study, .run = static_cast<std::uint32_t>(run)},
-                               {.purpose = tmcmc::Purpose::data, .stage = 3});
-    std::vector<double> draws(static_cast<std::size_t>(samples));
-    for (double& x : draws) {
-      x = exact.quantile(stream.uniform());
-    }
-    ecdfs.emplace_back(std::move(draws));
-  }
-  return pbox::area_metric(ecdfs);
 }
 
 double mean_of(const std::vector<replication::Run>& runs,
@@ -78,23 +36,25 @@ double mean_of(const std::vector<replication::Run>& runs,
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("prior_sensitivity",
-                  "The box of Table 2 beside log-uniform and half-normal noise levels, against quadrature.");
+  CLI::App app("The box of Table 2 beside log-uniform and half-normal noise levels, against quadrature.",
+               "prior_sensitivity");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
   std::string pbox_output;
   long points = 101;
-  program.add_output("CSV: a row for each prior, sampler and parameter");
-  program.add_file_output("--pbox-output", pbox_output,
-                          "CSV of exact distribution functions with the p-boxes of the samplers");
-  program.add_number("--points", points, count(2, 1000000), "Grid points of each p-box");
-  run_options.add_to(program, 2);
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  physics.add_to(program);
+  add_output(app, output, "CSV: a row for each prior, sampler and parameter");
+  add_output(app, "--pbox-output", pbox_output,
+             "CSV of exact distribution functions with the p-boxes of the samplers");
+  app.add_option("--points", points, "Grid points of each p-box")->transform(count(2, 1000000));
+  run_options.add_to(app, 2);
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto observations = read_observations(inputs.observations);
     const friction::Likelihood likelihood(observations, reading.physics, reading.infeasible_log_likelihood);
@@ -104,24 +64,24 @@ int main(int argc, char** argv) {
       arm.options.infeasible_level = arms.front().options.infeasible_level;
       arm.options.diagnose = true;  // the bridge estimate of the evidence for all
     }
-    auto csv = open_csv(program.output(),
-                        {"prior", "sampler", "parameter", "exact_mean", "exact_sd", "mean",
-                         "mean_standard_error", "area", "exact_area", "exact_log_evidence", "log_evidence",
-                         "log_evidence_standard_error", "log_evidence_rms", "iterations", "evaluations"});
+    auto csv =
+        open_csv(output, {"prior", "sampler", "parameter", "exact_mean", "exact_sd", "mean",
+                          "mean_standard_error", "area", "exact_area", "exact_log_evidence", "log_evidence",
+                          "log_evidence_standard_error", "log_evidence_rms", "iterations", "evaluations"});
     auto boxes = open_csv(pbox_output, {"prior", "sampler", "parameter", "x", "cdf", "lower", "upper"});
-    program.report("{:<12} {:<12} {:>26} {:>9} {:>7} {:>7} {:>12} {:>12}\n", "noise levels", "sampler",
-                   "log-evidence (exact, mean)", "rms error", "stages", "cost", "area F_mu", "area omega_n");
+    report("{:<12} {:<12} {:>26} {:>9} {:>7} {:>7} {:>12} {:>12}\n", "noise levels", "sampler",
+           "log-evidence (exact, mean)", "rms error", "stages", "cost", "area F_mu", "area omega_n");
     const auto options = run_options.study_options();
     const auto root = std::sqrt(static_cast<double>(options.runs));
     std::uint32_t number = 0;
     const auto box = prior_for(inputs, reading);
     static_cast<void>(bounds_of(box, "prior_sensitivity"));
-    for (const auto& [name, prior] : priors_of(box)) {
+    for (const auto& [name, prior] : replication::noise_priors(box)) {
       const auto exact = exact_posterior_for(inputs, likelihood, prior);
       std::array<double, friction::parameter_count> floors{};
       for (std::size_t p = 0; p < floors.size(); ++p) {
-        floors[p] = exact_area(exact.marginal(static_cast<friction::Parameter>(p)), options.seed, number,
-                               options.runs, 1000);
+        floors[p] = replication::exact_area(exact.marginal(static_cast<friction::Parameter>(p)), options.seed,
+                                            number, options.runs, 1000);
       }
       for (const auto& arm : arms) {
         const auto runs = replication::run_arm({likelihood, prior}, arm, number++, options);
@@ -137,19 +97,17 @@ int main(int argc, char** argv) {
             mean_of(runs, [](const auto& run) { return static_cast<double>(run.iterations()); });
         const double cost =
             mean_of(runs, [](const auto& run) { return static_cast<double>(run.result.final.evaluations); });
-        program.report("{:<12} {:<12} {:>13.3f} {:>12.3f} {:>9.3f} {:>7.2f} {:>7.0f} {:>12.5f} {:>12.5f}\n",
-                       name, arm.name, truth, mean, rms, stages, cost, areas[0], areas[1]);
+        report("{:<12} {:<12} {:>13.3f} {:>12.3f} {:>9.3f} {:>7.2f} {:>7.0f} {:>12.5f} {:>12.5f}\n", name,
+               arm.name, truth, mean, rms, stages, cost, areas[0], areas[1]);
         for (std::size_t p = 0; p < floors.size(); ++p) {
           const auto j = static_cast<Eigen::Index>(p);
           const auto& marginal = exact.marginal(static_cast<friction::Parameter>(p));
           const double centre = mean_of(runs, [j](const auto& run) { return run.mean[j]; });
           const double spread =
               std::sqrt(mean_of(runs, [&](const auto& run) { return std::pow(run.mean[j] - centre, 2); }));
-          if (csv) {
-            csv->row(name, arm.name, parameter_columns[p], digits(marginal.mean()),
-                     digits(marginal.standard_deviation()), centre, spread / root, areas[j], floors[p],
-                     digits(truth), mean, sd / root, rms, stages, cost);
-          }
+          csv.row(name, arm.name, parameter_columns[p], digits(marginal.mean()),
+                  digits(marginal.standard_deviation()), centre, spread / root, areas[j], floors[p],
+                  digits(truth), mean, sd / root, rms, stages, cost);
           if (boxes) {
             const auto envelope = pbox::envelope(ecdfs_of(runs, p));
             const double low = marginal.quantile(0.0005);

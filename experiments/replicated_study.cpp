@@ -41,7 +41,7 @@ std::string key(const replication::Reading& reading, const std::vector<replicati
 }
 
 /// Median and central 95 % of one column, by sampler.
-void report_column(const Program& program, const std::vector<std::string>& rows, std::size_t column,
+void report_column(const Report& report, const std::vector<std::string>& rows, std::size_t column,
                    const char* name, const std::vector<replication::Arm>& arms) {
   for (const auto& arm : arms) {
     std::vector<double> values = replication::study_column(rows, arm.name, column);
@@ -49,36 +49,38 @@ void report_column(const Program& program, const std::vector<std::string>& rows,
     const auto quantile = [&](double p) {
       return values[static_cast<std::size_t>(std::lround(p * static_cast<double>(values.size() - 1)))];
     };
-    program.report("  {:<28} {:<10} {:>12.5g} {:>12.5g} {:>12.5g}\n", name, arm.name, quantile(0.5),
-                   quantile(0.025), quantile(0.975));
+    report("  {:<28} {:<10} {:>12.5g} {:>12.5g} {:>12.5g}\n", name, arm.name, quantile(0.5), quantile(0.025),
+           quantile(0.975));
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(
-      "replicated_study",
+  CLI::App app(
       "Repeats the whole study (R runs of each sampler) many times: distributions of the p-box areas,\n"
-      "iteration counts and standard errors. Resumes from OUTPUT.journal where it was killed.");
+      "iteration counts and standard errors. Resumes from OUTPUT.journal where it was killed.",
+      "replicated_study");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
-  long studies = 1000;
-  long first_study = 0;
-  program.add_output(
-      "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");
-  program.add_number("--studies", studies, count(1, 100000000), "Number of studies, of both samplers each");
-  program.add_number("--first-study", first_study, count(0),
-                     "Number of the first study, for sharing the work");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  run_options.add_to(program, 2);
-  sampler.add_to(program);
-  physics.add_to(program);
+  long studies = 1000, first_study = 0;
+  add_output(app, output,
+             "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");
+  app.add_option("--studies", studies, "Number of studies, of both samplers each")
+      ->transform(count(1, 100000000));
+  app.add_option("--first-study", first_study, "Number of the first study, for sharing the work")
+      ->transform(count(0));
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_to(app, 2);
+  sampler.add_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
@@ -90,24 +92,24 @@ int main(int argc, char** argv) {
     std::optional<io::OutputFile> stream;
     std::optional<io::Journal> journal;
     std::vector<std::string> rows;
-    if (!program.output().empty()) {
-      stream.emplace(program.output());  // a path that cannot be written is refused before the work
+    if (!output.empty()) {
+      stream.emplace(output);  // a path that cannot be written is refused before the work
     }
     if (stream && !stream->in_place()) {
       stream.reset();
-      journal.emplace(program.output(), key(reading, arms, options, first_study, observations, prior));
+      journal.emplace(output, key(reading, arms, options, first_study, observations, prior));
       rows = journal->rows();
       rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
       journal->truncate(rows.size());
       if (journal->was_damaged()) {
-        program.report("{}: damaged rows are made again\n", journal->path().string());
+        report("{}: damaged rows are made again\n", journal->path().string());
       }
       if (!rows.empty()) {
-        program.report("{} studies were done before\n", rows.size() / arms.size());
+        report("{} studies were done before\n", rows.size() / arms.size());
       }
     }
     const auto done = static_cast<long>(rows.size() / arms.size());
-    io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !program.quiet());
+    io::Progress progress("replicated_study", static_cast<std::size_t>(studies - done), !report.quiet());
     try {
       for (long k = done; k < studies; ++k) {
         options.study = static_cast<std::uint32_t>(first_study + k);
@@ -135,14 +137,14 @@ int main(int argc, char** argv) {
       stream->write(fmt::format("{}{}{}\n", header, header.empty() ? "" : "\n", fmt::join(rows, "\n")));
       stream->commit();
     }
-    program.report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
-                   physics.reading_name);
-    program.report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
+    report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
+           physics.reading_name);
+    report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
     for (const auto& [column, name] : {std::pair{2U, "p-box area, F_mu, N"},
                                        {3U, "p-box area, omega_n, Hz"},
                                        {10U, "standard error, F_mu, N"},
                                        {22U, "log-evidence"}}) {
-      report_column(program, rows, column, name, arms);
+      report_column(report, rows, column, name, arms);
     }
   });
 }

@@ -11,21 +11,20 @@ using namespace experiments;
 namespace {
 
 /// What the runs say of themselves (--diagnose).
-void report_diagnoses(const Program& program, const std::vector<replication::Run>& runs) {
+void report_diagnoses(const Report& report, const std::vector<replication::Run>& runs) {
   const auto d = replication::diagnoses_of(runs);
-  program.report("  bridge log-evidence {:.3f} (sd over runs {:.3f}), standard error of a run {:.3f}\n",
-                 d.log_evidence.mean, d.log_evidence.standard_deviation, d.standard_error);
-  program.report("  smallest effective sample size of a parameter and run: {:.0f}\n",
-                 d.smallest_effective_size);
-  program.report("  runs with warnings:");
+  report("  bridge log-evidence {:.3f} (sd over runs {:.3f}), standard error of a run {:.3f}\n",
+         d.log_evidence.mean, d.log_evidence.standard_deviation, d.standard_error);
+  report("  smallest effective sample size of a parameter and run: {:.0f}\n", d.smallest_effective_size);
+  report("  runs with warnings:");
   for (const auto& [kind, count] : d.warned) {
-    program.report("  {}: {}", kind, count);
+    report("  {}: {}", kind, count);
   }
-  program.report("{}\n", d.warned.empty() ? "  none" : "");
+  report("{}\n", d.warned.empty() ? "  none" : "");
 }
 
-void report_arm(const Program& program, const replication::Arm& arm,
-                const std::vector<replication::Run>& runs, int threads) {
+void report_arm(const Report& report, const replication::Arm& arm, const std::vector<replication::Run>& runs,
+                int threads) {
   const Eigen::VectorXd areas = replication::pbox_areas(runs, threads);
   std::vector<double> evidence;
   tmcmc::Index evaluations = 0;
@@ -34,11 +33,10 @@ void report_arm(const Program& program, const replication::Arm& arm,
     evaluations += run.result.final.evaluations;
   }
   const auto log_evidence = replication::moments(evidence);
-  program.report("\n{}: log-evidence {:.3f} (sd over runs {:.3f}), {:.0f} likelihood evaluations a run\n",
-                 arm.name, log_evidence.mean, log_evidence.standard_deviation,
-                 static_cast<double>(evaluations) / static_cast<double>(runs.size()));
-  program.report("  {:<22} {:>12} {:>12} {:>14} {:>14}\n", "", "mean", "sd of means", "posterior sd",
-                 "p-box area");
+  report("\n{}: log-evidence {:.3f} (sd over runs {:.3f}), {:.0f} likelihood evaluations a run\n", arm.name,
+         log_evidence.mean, log_evidence.standard_deviation,
+         static_cast<double>(evaluations) / static_cast<double>(runs.size()));
+  report("  {:<22} {:>12} {:>12} {:>14} {:>14}\n", "", "mean", "sd of means", "posterior sd", "p-box area");
   for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     std::vector<double> means, sds;
@@ -47,42 +45,43 @@ void report_arm(const Program& program, const replication::Arm& arm,
       sds.push_back(run.standard_deviation[column]);
     }
     const auto m = replication::moments(means);
-    program.report("  {:<22} {:>12.5f} {:>12.5f} {:>14.5f} {:>14.6f}\n", parameter_columns[j], m.mean,
-                   m.standard_deviation, replication::moments(sds).mean, areas[column]);
+    report("  {:<22} {:>12.5f} {:>12.5f} {:>14.5f} {:>14.6f}\n", parameter_columns[j], m.mean,
+           m.standard_deviation, replication::moments(sds).mean, areas[column]);
   }
-  program.report("  iterations:");
+  report("  iterations:");
   for (const auto& [iterations, count] : replication::iteration_counts(runs)) {
-    program.report("  {} in {} runs", iterations, count);
+    report("  {} in {} runs", iterations, count);
   }
-  program.report("\n");
+  report("\n");
   if (arm.options.diagnose) {
-    report_diagnoses(program, runs);
+    report_diagnoses(report, runs);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program(
-      "sampling_study",
+  CLI::App app(
       "Runs TMCMC (CoV = 100 %, Eq. 6) and TMCMC-II (N_eff = N/2, Eq. 9) on the friction benchmark.\n"
-      "Source of Tables 3-5 and Figures 3-5.");
+      "Source of Tables 3-5 and Figures 3-5.",
+      "sampling_study");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
   std::string runs_output, stages_output;
-  program.add_output("CSV of all posterior samples: sampler, run and the four parameters");
-  program.add_file_output("--runs-output", runs_output,
-                          "CSV with one row a run: iterations, log-evidence, moments");
-  program.add_file_output("--stages-output", stages_output, "CSV with one row a stage of each run");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  run_options.add_to(program);
-  sampler.add_to(program);
-  physics.add_to(program);
+  add_output(app, output, "CSV of all posterior samples: sampler, run and the four parameters");
+  add_output(app, "--runs-output", runs_output, "CSV with one row a run: iterations, log-evidence, moments");
+  add_output(app, "--stages-output", stages_output, "CSV with one row a stage of each run");
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_to(app);
+  sampler.add_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
@@ -93,17 +92,17 @@ int main(int argc, char** argv) {
 
     std::vector<std::string> sample_columns = {"sampler", "run"};
     sample_columns.insert(sample_columns.end(), parameter_columns.begin(), parameter_columns.end());
-    auto samples_csv = open_csv(program.output(), sample_columns);
+    auto samples_csv = open_csv(output, sample_columns);
     auto runs_csv = open_csv(runs_output, replication::run_columns(sampler.diagnose));
     auto stages_csv =
         open_csv(stages_output, {"sampler", "run", "stage", "beta", "step", "effective_sample_size",
                                  "coefficient_of_variation", "acceptance_rate", "log_evidence_increment",
                                  "feasible", "distinct_ancestors", "evaluations", "redraws"});
 
-    program.report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
-                   reading.sampler.samples, options.seed, physics.reading_name, observations.size());
+    report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
+           reading.sampler.samples, options.seed, physics.reading_name, observations.size());
     io::Progress progress("sampling_study", arms.size() * static_cast<std::size_t>(options.runs),
-                          !program.quiet());
+                          !report.quiet());
     std::vector<std::vector<replication::Run>> results;
     for (std::uint32_t a = 0; a < arms.size(); ++a) {
       results.push_back(replication::run_arm(problem, arms[a], a, options, [&] { progress.advance(); }));
@@ -122,14 +121,12 @@ int main(int argc, char** argv) {
                         tmcmc::as_span(run.standard_deviation), diagnosed);
         }
         for (const auto& s : run.result.stages) {
-          if (stages_csv) {
-            stages_csv->row(arms[a].name, i, s.stage, s.beta, s.step, s.effective_sample_size,
-                            s.coefficient_of_variation, s.acceptance_rate, s.log_evidence_increment,
-                            s.feasible, s.distinct_ancestors, s.evaluations, s.redraws);
-          }
+          stages_csv.row(arms[a].name, i, s.stage, s.beta, s.step, s.effective_sample_size,
+                         s.coefficient_of_variation, s.acceptance_rate, s.log_evidence_increment, s.feasible,
+                         s.distinct_ancestors, s.evaluations, s.redraws);
         }
       }
-      report_arm(program, arms[a], results[a], options.threads);
+      report_arm(report, arms[a], results[a], options.threads);
     }
     io::commit_all(samples_csv, runs_csv, stages_csv);
   });

@@ -92,25 +92,28 @@ std::vector<Setting> settings(long most_samples, int most_threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("scaling", "Time and memory over samples, threads and observations, on this machine.");
+  CLI::App app("Time and memory over samples, threads and observations, on this machine.", "scaling");
+  Report report(app);
+  std::string output;
   long most_samples = 1000000, repetitions = 5;
   int most_threads = 0;
-  program.add_output(
+  add_output(
+      app, output,
       "CSV, one row a setting: stages and evaluations, best time, peak memory beyond what was in use before");
-  program.add_number("--most-samples", most_samples, count(100, 1000000),
-                     "Settings with more samples are left out");
-  program.add_number("--most-threads", most_threads, count(0, 4096),
-                     "Most threads; 0: as many as the machine has");
-  program.add_number("--repetitions", repetitions, count(1, 1000000), "Rounds over all settings");
+  app.add_option("--most-samples", most_samples, "Settings with more samples are left out")
+      ->transform(count(100, 1000000));
+  app.add_option("--most-threads", most_threads, "Most threads; 0: as many as the machine has")
+      ->transform(count(0, 4096));
+  app.add_option("--repetitions", repetitions, "Rounds over all settings")->transform(count(1, 1000000));
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const RunOptions machine{.threads = most_threads};
     const auto all = settings(most_samples, machine.study_options().threads);
-    auto csv = open_csv(program.output(), {"sweep", "runs", "samples", "threads", "observations", "stages",
-                                           "evaluations", "seconds", "microseconds_per_sample",
-                                           "nanoseconds_per_evaluation", "memory_bytes", "speedup"});
+    auto csv = open_csv(
+        output, {"sweep", "runs", "samples", "threads", "observations", "stages", "evaluations", "seconds",
+                 "microseconds_per_sample", "nanoseconds_per_evaluation", "memory_bytes", "speedup"});
     std::vector<Measurement> best(all.size());
-    io::Progress progress("scaling", all.size() * static_cast<std::size_t>(repetitions), !program.quiet());
+    io::Progress progress("scaling", all.size() * static_cast<std::size_t>(repetitions), !report.quiet());
     // Round by round, so that a disturbance does not hit one setting alone.
     for (long round = 0; round < repetitions; ++round) {
       for (std::size_t i = 0; i < all.size(); ++i) {
@@ -121,9 +124,8 @@ int main(int argc, char** argv) {
         progress.advance();
       }
     }
-    program.report("{:<13} {:>8} {:>8} {:>13} {:>10} {:>14} {:>17} {:>10} {:>8}\n", "sweep", "samples",
-                   "threads", "observations", "seconds", "us per sample", "ns per evaluation", "MB",
-                   "speed-up");
+    report("{:<13} {:>8} {:>8} {:>13} {:>10} {:>14} {:>17} {:>10} {:>8}\n", "sweep", "samples", "threads",
+           "observations", "seconds", "us per sample", "ns per evaluation", "MB", "speed-up");
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Setting& s = all[i];
       const Measurement& m = best[i];
@@ -134,13 +136,11 @@ int main(int argc, char** argv) {
       });
       const double speedup =
           best[static_cast<std::size_t>(alone - all.begin())].cost.seconds / m.cost.seconds;
-      program.report("{:<13} {:>8} {:>8} {:>13} {:>10.4f} {:>14.3f} {:>17.1f} {:>10.2f} {:>8.2f}\n", s.sweep,
-                     s.samples, s.threads, s.observations, m.cost.seconds, per_sample, per_evaluation,
-                     1e-6 * m.cost.peak_bytes, speedup);
-      if (csv) {
-        csv->row(s.sweep, s.runs, s.samples, s.threads, s.observations, m.stages, m.evaluations,
-                 m.cost.seconds, per_sample, per_evaluation, m.cost.peak_bytes, speedup);
-      }
+      report("{:<13} {:>8} {:>8} {:>13} {:>10.4f} {:>14.3f} {:>17.1f} {:>10.2f} {:>8.2f}\n", s.sweep,
+             s.samples, s.threads, s.observations, m.cost.seconds, per_sample, per_evaluation,
+             1e-6 * m.cost.peak_bytes, speedup);
+      csv.row(s.sweep, s.runs, s.samples, s.threads, s.observations, m.stages, m.evaluations, m.cost.seconds,
+              per_sample, per_evaluation, m.cost.peak_bytes, speedup);
     }
     io::commit_all(csv);
   });

@@ -11,38 +11,37 @@ using namespace experiments;
 
 namespace {
 
-void report_rows(const Program& program, const replication::Audit& a, const replication::Truth& truth,
+void report_rows(const Report& report, const replication::Audit& a, const replication::Truth& truth,
                  double alternative) {
-  program.report("{:>5} {:>20} {:>18} {:>18} {:>18}\n", "row", "omega_b - r omega_n", "(r-r_nom)/sigma",
-                 fmt::format("phase z, {} N", truth.friction_force_n),
-                 fmt::format("phase z, {} N", alternative));
+  report("{:>5} {:>20} {:>18} {:>18} {:>18}\n", "row", "omega_b - r omega_n", "(r-r_nom)/sigma",
+         fmt::format("phase z, {} N", truth.friction_force_n), fmt::format("phase z, {} N", alternative));
   for (std::size_t i = 0; i < a.ratio_residual.size(); ++i) {
-    program.report("{:>5} {:>20.5f} {:>18.3f} {:>18.3f} {:>18.3f}\n", i + 1, a.frequency_difference_hz[i],
-                   a.ratio_residual[i], a.phase_residual_truth[i], a.phase_residual_alternative[i]);
+    report("{:>5} {:>20.5f} {:>18.3f} {:>18.3f} {:>18.3f}\n", i + 1, a.frequency_difference_hz[i],
+           a.ratio_residual[i], a.phase_residual_truth[i], a.phase_residual_alternative[i]);
   }
-  program.report("frequency ratio: chi^2 = {:.1f} on {} points, p = {:.2g}\n", a.ratio_chi_squared,
-                 a.ratio_residual.size(), a.ratio_chi_squared_p);
+  report("frequency ratio: chi^2 = {:.1f} on {} points, p = {:.2g}\n", a.ratio_chi_squared,
+         a.ratio_residual.size(), a.ratio_chi_squared_p);
 }
 
-void report_parameter(const Program& program, const char* name, const char* unit,
+void report_parameter(const Report& report, const char* name, const char* unit,
                       const replication::ParameterAudit& a) {
   const auto interval = [&](const replication::ConfidenceInterval& i) {
     return std::isnan(i.lower) ? "undefined"
                                : fmt::format("[{:.5g}, {:.5g}]{}", i.lower, i.upper,
                                              i.lower_at_bound || i.upper_at_bound ? " up to a bound" : "");
   };
-  program.report("{} = {:.5g} {} (least squares), chi^2 = {:.1f}, p = {}\n", name, a.estimate, unit,
-                 a.chi_squared, or_undefined("{:.2g}", a.chi_squared_p));
-  program.report("  95 % interval {} with noise {} as stated, {} with noise unknown ({})\n",
-                 interval(a.noise_known_95), a.noise_stated, interval(a.noise_unknown_95),
-                 or_undefined("{:.4g}", a.noise_unbiased));
+  report("{} = {:.5g} {} (least squares), chi^2 = {:.1f}, p = {}\n", name, a.estimate, unit, a.chi_squared,
+         or_undefined("{:.2g}", a.chi_squared_p));
+  report("  95 % interval {} with noise {} as stated, {} with noise unknown ({})\n",
+         interval(a.noise_known_95), a.noise_stated, interval(a.noise_unknown_95),
+         or_undefined("{:.4g}", a.noise_unbiased));
   if (a.fitted_noise != estimation::FittedNoise::determined)
-    program.report("  the unknown noise is undefined: {}\n", describe(a.fitted_noise));
+    report("  the unknown noise is undefined: {}\n", describe(a.fitted_noise));
   for (const auto& t : a.tests) {
     if (std::isnan(t.chi_squared)) {
-      program.report("  {} {}: the motion is not continuous at every observation\n", t.value, unit);
+      report("  {} {}: the motion is not continuous at every observation\n", t.value, unit);
     } else {
-      program.report(
+      report(
           "  {} {}: chi^2 = {:.1f}, p = {:.2g}; likelihood ratio {:.2f}, p = {:.2g}; noise unknown F = "
           "{}, p = {}\n",
           t.value, unit, t.chi_squared, t.chi_squared_p, t.likelihood_ratio, t.likelihood_ratio_p,
@@ -52,55 +51,57 @@ void report_parameter(const Program& program, const char* name, const char* unit
 }
 
 /// One row a value: the least-squares estimate with its intervals, and each value that was tested.
-void write_parameter(io::CsvWriter& csv, const std::string& physics, const std::string& parameter,
+void write_parameter(OptionalCsv& csv, const std::string& physics, const std::string& parameter,
                      const std::vector<std::string>& hypotheses, const replication::ParameterAudit& a) {
   csv.row(parameter, "least squares", digits(a.estimate, 8), a.noise_stated, digits(a.noise_unbiased, 8),
           digits(a.chi_squared, 8), digits(a.chi_squared_p, 4), 0, "nan", 0, "nan",
           digits(a.noise_known_95.lower, 8), digits(a.noise_known_95.upper, 8),
           digits(a.noise_unknown_95.lower, 8), digits(a.noise_unknown_95.upper, 8), physics);
-  for (std::size_t i = 0; i < a.tests.size(); ++i) {
-    const auto& t = a.tests[i];
-    csv.row(parameter, hypotheses[i], t.value, a.noise_stated, digits(a.noise_unbiased, 8),
+  for (auto hypothesis = hypotheses.begin(); const auto& t : a.tests) {
+    csv.row(parameter, *hypothesis++, t.value, a.noise_stated, digits(a.noise_unbiased, 8),
             digits(t.chi_squared, 8), digits(t.chi_squared_p, 4), digits(t.likelihood_ratio, 8),
             digits(t.likelihood_ratio_p, 4), digits(t.f_statistic, 8), digits(t.f_p, 4), "nan", "nan", "nan",
             "nan", physics);
   }
 }
 
-void write_audit(std::optional<io::CsvWriter>& csv, const std::string& physics, const replication::Audit& a) {
-  if (csv) {
-    write_parameter(*csv, physics, parameter_columns[0], {"stated truth", "alternative"}, a.friction_force);
-    write_parameter(*csv, physics, parameter_columns[1], {"stated truth"}, a.natural_frequency);
-  }
+void write_audit(OptionalCsv& csv, const std::string& physics, const replication::Audit& a) {
+  write_parameter(csv, physics, parameter_columns[0], {"stated truth", "alternative"}, a.friction_force);
+  write_parameter(csv, physics, parameter_columns[1], {"stated truth"}, a.natural_frequency);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("table1_observations",
-                  "Generates observations with noise (Table 1, Eqs. 22-23) and audits the printed ones.");
+  CLI::App app("Generates observations with noise (Table 1, Eqs. 22-23) and audits the printed ones.",
+               "table1_observations");
+  Report report(app);
   InputFiles inputs;
   PhysicsOptions physics;
   RunOptions run_options;
   replication::Truth truth;
   double alternative = 1.0;
-  std::string audit_output, summary_output;
-  program.add_output("CSV of generated observations, as table1_observations.csv");
-  program.add_file_output("--audit-output", audit_output, "CSV of the audit, one row an observation");
-  program.add_file_output("--audit-summary-output", summary_output,
-                          "CSV of the audit's statistics: estimates, tests, 95 % intervals");
-  program.add_number("--friction-force", truth.friction_force_n, non_negative(), "True friction force, N");
-  program.add_number("--natural-frequency", truth.natural_frequency_hz, positive(), "True frequency, Hz");
-  program.add_number("--phase-noise", truth.phase_noise_deg, non_negative(),
-                     "Standard deviation of the phase angle, deg");
-  program.add_number("--frequency-ratio-noise", truth.frequency_ratio_noise, non_negative(),
-                     "Standard deviation of the frequency ratio");
-  program.add_number("--alternative", alternative, non_negative(), "Second friction force of the audit, N");
-  run_options.add_seed_to(program);
-  inputs.add_observations_to(program);
-  physics.add_to(program);
+  std::string output, audit_output, summary_output;
+  add_output(app, output, "CSV of generated observations, as table1_observations.csv");
+  add_output(app, "--audit-output", audit_output, "CSV of the audit, one row an observation");
+  add_output(app, "--audit-summary-output", summary_output,
+             "CSV of the audit's statistics: estimates, tests, 95 % intervals");
+  app.add_option("--friction-force", truth.friction_force_n, "True friction force, N")
+      ->transform(non_negative());
+  app.add_option("--natural-frequency", truth.natural_frequency_hz, "True frequency, Hz")
+      ->transform(positive());
+  app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg")
+      ->transform(non_negative());
+  app.add_option("--frequency-ratio-noise", truth.frequency_ratio_noise,
+                 "Standard deviation of the frequency ratio")
+      ->transform(non_negative());
+  app.add_option("--alternative", alternative, "Second friction force of the audit, N")
+      ->transform(non_negative());
+  run_options.add_seed_to(app);
+  inputs.add_observations_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const bool audited = truth.phase_noise_deg > 0.0 && truth.frequency_ratio_noise > 0.0;
     if (!audited && !(audit_output.empty() && summary_output.empty())) {
@@ -111,8 +112,7 @@ int main(int argc, char** argv) {
     const auto printed = read_observations(inputs.observations);
     const auto generated = replication::generate_observations(truth, replication::nominal_ratios(),
                                                               reading.physics, run_options.seed);
-    auto csv =
-        open_csv(program.output(), {"index", "r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});
+    auto csv = open_csv(output, {"index", "r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});
     auto rows = open_csv(audit_output, {"index", "driving_frequency_difference_hz", "ratio_residual",
                                         "phase_residual_truth", "phase_residual_alternative",
                                         "phase_residual_truth_exact", "phase_residual_alternative_exact"});
@@ -121,26 +121,26 @@ int main(int argc, char** argv) {
                                   "chi_squared", "chi_squared_p", "likelihood_ratio", "likelihood_ratio_p",
                                   "f_statistic", "f_p", "noise_known_low", "noise_known_high",
                                   "noise_unknown_low", "noise_unknown_high", "physics"});
-    for (std::size_t i = 0; csv && i < generated.size(); ++i) {
-      csv->row(i + 1, generated.nominal_ratio[i], generated.measured_ratio[i],
-               generated.driving_frequency_hz[i], generated.phase_deg[i]);
+    for (std::size_t i = 0; i < generated.size(); ++i) {
+      csv.row(i + 1, generated.nominal_ratio[i], generated.measured_ratio[i],
+              generated.driving_frequency_hz[i], generated.phase_deg[i]);
     }
     if (audited) {
       const auto a = replication::audit(printed, truth, alternative, reading.physics);
-      const auto exact =
-          replication::audit(printed, truth, alternative, replication::with_exact_rules(reading.physics));
-      program.report("Audit of {} (reading {}): truth {} N, {} Hz; noise {} deg, {}\n", inputs.observations,
-                     physics.reading_name, truth.friction_force_n, truth.natural_frequency_hz,
-                     truth.phase_noise_deg, truth.frequency_ratio_noise);
-      report_rows(program, a, truth, alternative);
-      report_parameter(program, "F_mu", "N", a.friction_force);
-      report_parameter(program, "omega_n", "Hz", a.natural_frequency);
-      program.report("With the exact phase and limit:\n");
-      report_parameter(program, "F_mu", "N", exact.friction_force);
-      for (std::size_t i = 0; rows && i < printed.size(); ++i) {
-        rows->row(i + 1, a.frequency_difference_hz[i], a.ratio_residual[i], a.phase_residual_truth[i],
-                  a.phase_residual_alternative[i], exact.phase_residual_truth[i],
-                  exact.phase_residual_alternative[i]);
+      const auto exact_physics = replication::with_exact_rules(reading.physics);
+      const auto exact = replication::audit(printed, truth, alternative, exact_physics);
+      report("Audit of {} (reading {}): truth {} N, {} Hz; noise {} deg, {}\n", inputs.observations,
+             physics.reading_name, truth.friction_force_n, truth.natural_frequency_hz, truth.phase_noise_deg,
+             truth.frequency_ratio_noise);
+      report_rows(report, a, truth, alternative);
+      report_parameter(report, "F_mu", "N", a.friction_force);
+      report_parameter(report, "omega_n", "Hz", a.natural_frequency);
+      report("With the exact phase and limit:\n");
+      report_parameter(report, "F_mu", "N", exact.friction_force);
+      for (std::size_t i = 0; i < printed.size(); ++i) {
+        rows.row(i + 1, a.frequency_difference_hz[i], a.ratio_residual[i], a.phase_residual_truth[i],
+                 a.phase_residual_alternative[i], exact.phase_residual_truth[i],
+                 exact.phase_residual_alternative[i]);
       }
       write_audit(summary, "of the reading", a);
       write_audit(summary, "exact", exact);

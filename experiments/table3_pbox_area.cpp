@@ -9,40 +9,37 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("table3_pbox_area",
-                  "Area of the p-box of all runs, for each sampler and parameter (Table 3).");
+  CLI::App app("Area of the p-box of all runs, for each sampler and parameter (Table 3).",
+               "table3_pbox_area");
+  Report report(app);
+  std::string output;
   std::string input = "data/generated/sampling_study_samples.csv";
-  program.add_output("CSV in the form of table3_pbox_area.csv: sampler and one column a parameter");
-  program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
+  add_output(app, output, "CSV in the form of table3_pbox_area.csv: sampler and one column a parameter");
+  add_input(app, "--input", input, "Samples: CSV with columns sampler, run and parameters");
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto samples = read_samples(input);
     std::vector<std::string> columns = {"sampler"};
     columns.insert(columns.end(), samples.columns.begin(), samples.columns.end());
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(), columns);
-    }
-    program.report("Area of the p-box (Eq. 25)\n{:<12}", "sampler");
+    auto csv = open_csv(output, columns);
+    report("Area of the p-box (Eq. 25)\n{:<12}", "sampler");
     for (const auto& name : samples.columns) {
-      program.report(" {:>22}", name);
+      report(" {:>22}", name);
     }
-    program.report("\n");
+    report("\n");
     for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
       std::vector<double> areas;
-      program.report("{:<12}", samples.samplers[s]);
+      report("{:<12}", samples.samplers[s]);
       for (const auto& runs : samples.values[s]) {
         std::vector<pbox::Ecdf> ecdfs;
         for (const auto& run : runs) {
           ecdfs.emplace_back(run);
         }
         areas.push_back(pbox::area_metric(ecdfs));
-        program.report(" {:>22.6g}", areas.back());
+        report(" {:>22.6g}", areas.back());
       }
-      program.report("\n");
-      if (csv) {
-        csv->row(samples.samplers[s], areas);
-      }
+      report("\n");
+      csv.row(samples.samplers[s], areas);
     }
     io::commit_all(csv);
   });

@@ -10,13 +10,16 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("table4_iteration_counts", "How many runs needed how many iterations (Table 4).");
+  CLI::App app("How many runs needed how many iterations (Table 4).", "table4_iteration_counts");
+  Report report(app);
+  std::string output;
   std::string input = "data/generated/sampling_study_runs.csv";
-  program.add_output("CSV in the form of table4_iteration_counts.csv: iterations and one column a sampler");
-  program.add_input("--input", input,
-                    "Runs: CSV with columns sampler, iterations; and run, each once a sampler");
+  add_output(app, output,
+             "CSV in the form of table4_iteration_counts.csv: iterations and one column a sampler");
+  add_input(app, "--input", input,
+            "Runs: CSV with columns sampler, iterations; and run, each once a sampler");
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto table = io::CsvTable::read(input);
     const auto samplers = table.text("sampler");
     const auto iterations = positive_integers(table, "iterations");
@@ -34,26 +37,21 @@ int main(int argc, char** argv) {
     }
     std::vector<std::string> columns = {"iterations"};
     columns.insert(columns.end(), names.begin(), names.end());
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(), columns);
-    }
-    program.report("Runs by number of iterations\n{:<12}", "iterations");
+    auto csv = open_csv(output, columns);
+    report("Runs by number of iterations\n{:<12}", "iterations");
     for (const auto& name : names) {
-      program.report(" {:>12}", name);
+      report(" {:>12}", name);
     }
-    program.report("\n");
+    report("\n");
     for (auto& [number, by_sampler] : counts) {
       std::vector<double> cells;
-      program.report("{:<12}", number);
+      report("{:<12}", number);
       for (const auto& name : names) {
         cells.push_back(static_cast<double>(by_sampler[name]));
-        program.report(" {:>12}", by_sampler[name]);
+        report(" {:>12}", by_sampler[name]);
       }
-      program.report("\n");
-      if (csv) {
-        csv->row(number, cells);
-      }
+      report("\n");
+      csv.row(number, cells);
     }
     io::commit_all(csv);
   });

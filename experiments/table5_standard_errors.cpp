@@ -11,24 +11,22 @@
 using namespace experiments;
 
 int main(int argc, char** argv) {
-  Program program("table5_standard_errors",
-                  "Standard error of the posterior means over the runs (promised in the abstract).");
+  CLI::App app("Standard error of the posterior means over the runs (promised in the abstract).",
+               "table5_standard_errors");
+  Report report(app);
+  std::string output;
   std::string input = "data/generated/sampling_study_samples.csv";
-  program.add_output(
-      "CSV: sampler, parameter, mean, standard_error, posterior_sd, standard_error_independent, "
-      "effective_sample_size");
-  program.add_input("--input", input, "Samples: CSV with columns sampler, run and parameters");
+  add_output(app, output,
+             "CSV: sampler, parameter, mean, standard_error, posterior_sd, standard_error_independent, "
+             "effective_sample_size");
+  add_input(app, "--input", input, "Samples: CSV with columns sampler, run and parameters");
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto samples = read_samples(input);
-    std::optional<io::CsvWriter> csv;
-    if (!program.output().empty()) {
-      csv.emplace(program.output(),
-                  std::vector<std::string>{"sampler", "parameter", "mean", "standard_error", "posterior_sd",
-                                           "standard_error_independent", "effective_sample_size"});
-    }
-    program.report("{:<12} {:<24} {:>10} {:>15} {:>13} {:>17} {:>14}\n", "sampler", "parameter", "mean",
-                   "standard error", "posterior sd", "if independent", "effective size");
+    auto csv = open_csv(output, {"sampler", "parameter", "mean", "standard_error", "posterior_sd",
+                                 "standard_error_independent", "effective_sample_size"});
+    report("{:<12} {:<24} {:>10} {:>15} {:>13} {:>17} {:>14}\n", "sampler", "parameter", "mean",
+           "standard error", "posterior sd", "if independent", "effective size");
     for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
       for (std::size_t c = 0; c < samples.columns.size(); ++c) {
         std::vector<double> means, variances;
@@ -46,13 +44,10 @@ int main(int argc, char** argv) {
         const double variance = replication::moments(variances).mean + between;
         const double independent = std::sqrt(variance / count);
         const double effective = variance / (m.standard_deviation * m.standard_deviation);
-        program.report("{:<12} {:<24} {:>10.5f} {:>15.6f} {:>13.5f} {:>17.6f} {:>14.1f}\n",
-                       samples.samplers[s], samples.columns[c], m.mean, m.standard_deviation,
-                       std::sqrt(variance), independent, effective);
-        if (csv) {
-          csv->row(samples.samplers[s], samples.columns[c], m.mean, m.standard_deviation, std::sqrt(variance),
-                   independent, effective);
-        }
+        report("{:<12} {:<24} {:>10.5f} {:>15.6f} {:>13.5f} {:>17.6f} {:>14.1f}\n", samples.samplers[s],
+               samples.columns[c], m.mean, m.standard_deviation, std::sqrt(variance), independent, effective);
+        csv.row(samples.samplers[s], samples.columns[c], m.mean, m.standard_deviation, std::sqrt(variance),
+                independent, effective);
       }
     }
     io::commit_all(csv);

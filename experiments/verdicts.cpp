@@ -30,7 +30,9 @@ std::string markdown_cell(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("verdicts", "A verdict on every printed number and claim, with its evidence.");
+  CLI::App app("A verdict on every printed number and claim, with its evidence.", "verdicts");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   TableOptions table_options;
@@ -42,27 +44,27 @@ int main(int argc, char** argv) {
   std::string runs = "data/generated/sampling_study_runs.csv";
   std::string floor = "data/generated/pbox_floor.csv";
   std::string markdown_output, contrasts_output, statistics_output;
-  program.add_output("CSV: id, place, claim, number, verdict, evidence");
-  program.add_file_output("--markdown-output", markdown_output, "The verdicts as a Markdown table");
-  program.add_file_output(
-      "--contrasts-output", contrasts_output,
+  add_output(app, output, "CSV: id, place, claim, number, verdict, evidence");
+  add_output(app, "--markdown-output", markdown_output, "The verdicts as a Markdown table");
+  add_output(
+      app, "--contrasts-output", contrasts_output,
       "CSV of the comparisons of the samplers behind C2 to C5: quantity, statistic, printed, null_low, "
       "null_high, p, ratio, ratio_low, ratio_high, margin");
-  program.add_file_output("--statistics-output", statistics_output,
-                          "CSV of the other numbers behind the verdicts: quantity, value, standard_error");
-  program.add_input("--replicated", replicated, "Studies written by replicated_study");
-  program.add_input("--table3", table3, "Table 3 as printed");
-  program.add_input("--table4", table4, "Table 4 as printed");
-  program.add_input("--claims", claims, "Claims: CSV with columns id, place, claim");
-  program.add_input("--runs-input", runs, "Runs of a study, written by sampling_study, for C11");
-  program.add_input("--floor", floor, "Areas of independent draws, written by pbox_floor, for C12");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  table_options.add_to(program);
-  run_options.add_seed_to(program);
-  physics.add_to(program);
+  add_output(app, "--statistics-output", statistics_output,
+             "CSV of the other numbers behind the verdicts: quantity, value, standard_error");
+  add_input(app, "--replicated", replicated, "Studies written by replicated_study");
+  add_input(app, "--table3", table3, "Table 3 as printed");
+  add_input(app, "--table4", table4, "Table 4 as printed");
+  add_input(app, "--claims", claims, "Claims: CSV with columns id, place, claim");
+  add_input(app, "--runs-input", runs, "Runs of a study, written by sampling_study, for C11");
+  add_input(app, "--floor", floor, "Areas of independent draws, written by pbox_floor, for C12");
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  table_options.add_to(app);
+  run_options.add_seed_to(app);
+  physics.add_to(app);
 
-  return program.run(argc, argv, [&] {
+  return report.run(argc, argv, [&] {
     const auto reading = physics.reading();
     const auto [ids, places, texts] = replication::read_claims(claims);
     const auto printed = read_printed_tables(table3, table4);
@@ -72,7 +74,7 @@ int main(int argc, char** argv) {
     if (printed.counts.size() != 2 || printed.areas.size() != 4) {
       throw io::InputError(table4 + ": expected the columns of two samplers, and table 3 two rows");
     }
-    auto csv = open_csv(program.output(), {"id", "place", "claim", "number", "verdict", "evidence"});
+    auto csv = open_csv(output, {"id", "place", "claim", "number", "verdict", "evidence"});
     auto contrasts_csv =
         open_csv(contrasts_output, {"quantity", "statistic", "printed", "null_low", "null_high", "p",
                                     "p_standard_error", "ratio", "ratio_low", "ratio_high", "margin"});
@@ -104,13 +106,11 @@ int main(int argc, char** argv) {
     std::string markdown = "| | claim | number | verdict on the claim | evidence |\n|---|---|---|---|---|\n";
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const auto judged = replication::judge_claim(ids[i], evidence);
-      program.report("{}  {}\n    number: {}; claim: {}\n    {}\n", ids[i], texts[i], judged.number,
-                     name_of(judged.claim), judged.evidence);
+      report("{}  {}\n    number: {}; claim: {}\n    {}\n", ids[i], texts[i], judged.number,
+             name_of(judged.claim), judged.evidence);
       markdown += fmt::format("| {} | {} | {} | **{}** | {} |\n", ids[i], markdown_cell(texts[i]),
                               judged.number, name_of(judged.claim), judged.evidence);
-      if (csv) {
-        csv->row(ids[i], places[i], texts[i], judged.number, name_of(judged.claim), judged.evidence);
-      }
+      csv.row(ids[i], places[i], texts[i], judged.number, name_of(judged.claim), judged.evidence);
     }
     if (contrasts_csv) {
       write_contrast(*contrasts_csv, "friction_force_n", "ratio of areas", contrasts.friction_force);
@@ -120,9 +120,7 @@ int main(int argc, char** argv) {
     auto statistics_csv = open_csv(statistics_output, {"quantity", "value", "standard_error"});
     for (const auto& s :
          replication::claim_statistics(evidence, joint, exact.mean(), exact.standard_deviation())) {
-      if (statistics_csv) {
-        statistics_csv->row(s.quantity, digits(s.value, 8), digits(s.standard_error, 4));
-      }
+      statistics_csv.row(s.quantity, digits(s.value, 8), digits(s.standard_error, 4));
     }
     if (markdown_file) {
       markdown_file->write(markdown);

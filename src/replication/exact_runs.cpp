@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tmcmc/random.hpp"
+#include "tmcmc/random_stream.hpp"
 
 namespace replication {
 
@@ -28,6 +29,21 @@ Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed
     }
   }
   return ecdfs;
+}
+
+double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed, std::uint32_t study,
+                  long runs, long samples) {
+  std::vector<pbox::Ecdf> ecdfs;
+  for (long run = 0; run < runs; ++run) {
+    tmcmc::RandomStream stream({.seed = seed, .study = study, .run = static_cast<std::uint32_t>(run)},
+                               {.purpose = tmcmc::Purpose::data, .stage = 3});
+    std::vector<double> draws(static_cast<std::size_t>(samples));
+    for (double& x : draws) {
+      x = exact.quantile(stream.uniform());
+    }
+    ecdfs.emplace_back(std::move(draws));
+  }
+  return pbox::area_metric(ecdfs);
 }
 
 }  // namespace replication

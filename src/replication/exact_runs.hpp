@@ -19,4 +19,8 @@ using Ecdfs = std::array<std::vector<pbox::Ecdf>, friction::parameter_count>;
 [[nodiscard]] Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed,
                                std::uint32_t study, long runs, long samples);
 
+/// Area (Eq. 25) of the p-box of `runs` sets of independent exact draws of one parameter.
+[[nodiscard]] double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed,
+                                std::uint32_t study, long runs, long samples);
+
 }  // namespace replication

@@ -166,9 +166,9 @@ check "a plus sign and spaces change nothing: $(diff $table3 edited.csv | wc -l)
 check "they were there" test "$(grep -c '+0.1714 ' edited.csv)" = 1
 rm plain.csv again.csv
 # Files that are read without an option of their own.
-expect_error 2 "--output: value 'data/published/table2_prior.csv': expected another file than one that is read" \
+expect_error 2 "--output: value 'data/published/table2_prior.csv': expected another file than that of --prior" \
   "$bin/sampling_study" --runs 1 --samples 50 --quiet --output data/published/table2_prior.csv
-expect_error 2 "--output: value 'data/published/table3_pbox_area.csv': expected another file than one that is read" \
+expect_error 2 "--output: value 'data/published/table3_pbox_area.csv': expected another file than that of --published" \
   "$bin/compare_published" --output data/published/table3_pbox_area.csv
 
 for program in verdicts fig9_null_distributions readings; do

@@ -17,18 +17,20 @@ int run(std::vector<std::string>& words) {
   for (auto& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
-  Program program("replicated_study", "Command lines.");
+  CLI::App app("Command lines.", "replicated_study");
+  Report report(app);
+  std::string output;
   InputFiles inputs;
   PhysicsOptions physics;
   SamplerOptions sampler;
   RunOptions run_options;
-  program.add_output("CSV");
-  inputs.add_observations_to(program);
-  inputs.add_prior_to(program);
-  run_options.add_to(program);
-  sampler.add_to(program);
-  physics.add_to(program);
-  return program.run(static_cast<int>(words.size()), argv.data(), [&] {
+  add_output(app, output, "CSV");
+  inputs.add_observations_to(app);
+  inputs.add_prior_to(app);
+  run_options.add_to(app);
+  sampler.add_to(app);
+  physics.add_to(app);
+  return report.run(static_cast<int>(words.size()), argv.data(), [&] {
     replication::Reading reading = physics.reading();
     sampler.apply(reading);
     const auto options = run_options.study_options();

@@ -51,22 +51,21 @@ std::vector<double> ratios(const io::CsvTable& table, const char* column) {
 
 }  // namespace
 
-void InputFiles::add_observations_to(Program& program) {
+void InputFiles::add_observations_to(CLI::App& app) {
   observations = published("table1_observations.csv");
-  program.add_input("--observations", observations,
-                    "Measurements: CSV with columns r_nominal, r_measured, driving_frequency_hz, phase_deg");
+  add_input(app, "--observations", observations,
+            "Measurements: CSV with columns r_nominal, r_measured, driving_frequency_hz, phase_deg");
 }
 
-void InputFiles::add_prior_to(Program& program) {
-  program.add_read_file(published("table2_prior.csv"));  // what the reading starts from
-  program.add_input("--prior", prior,
-                    "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a "
-                    "column for each argument; "
-                    "without it Table 2 as the reading has it");
-  program.add_input(
-      "--prior-correlation", prior_correlation,
-      "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
-      "normal_score, and a column for each parameter; without it they are independent");
+void InputFiles::add_prior_to(CLI::App& app) {
+  add_input(app, "--prior", prior,
+            "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a "
+            "column for each argument; "
+            "without it Table 2 as the reading has it")
+      ->default_str(published("table2_prior.csv"));
+  add_input(app, "--prior-correlation", prior_correlation,
+            "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
+            "normal_score, and a column for each parameter; without it they are independent");
 }
 
 std::string published(const std::string& file) {
@@ -97,7 +96,7 @@ friction::Observations read_observations(const std::string& path) {
   }
   const std::string doubt = friction::doubtful_unit_or_sign(o.phase_deg);
   if (!doubt.empty()) {
-    fmt::print(stderr, "warning: {}: column 'phase_deg': {}\n", io::printable(path, 200), doubt);
+    warn(fmt::format("{}: column 'phase_deg': {}", io::printable(path, 200), doubt));
   }
   return o;
 }

@@ -1,6 +1,6 @@
-#include "command_line.hpp"
 #include "errors/invalid_value.hpp"
 #include "names/names.hpp"
+#include "options.hpp"
 #include "tmcmc/option_table.hpp"
 
 namespace experiments {
@@ -29,13 +29,10 @@ std::string type_of(const tmcmc::OptionText& option) {
   return option.range.whole ? "INT" : "FLOAT";
 }
 
-Check check_of(const tmcmc::OptionText& option) {
-  return {[name = option.name](std::string& word) {
-            const auto normalised = tmcmc::normalised_option(name, word);
-            word = normalised.value_or(word);
-            return normalised.has_value();
-          },
-          option.expected};
+CLI::Validator check_of(const tmcmc::OptionText& option) {
+  return normalising(
+      [name = option.name](const std::string& word) { return tmcmc::normalised_option(name, word); },
+      option.expected);
 }
 
 [[noreturn]] void refuse(std::string_view name, std::string_view value, const std::string& expected) {
@@ -54,24 +51,27 @@ void set(tmcmc::Options& options, const tmcmc::OptionText& option, const std::st
 
 }  // namespace
 
-void SamplerOptions::add_to(Program& program) {
+void SamplerOptions::add_to(CLI::App& app) {
   using enum tmcmc::OptionGroup;
   const auto add = [&](const tmcmc::OptionText& option) {
     const std::string help(option.help);
     if (option.name == "cov_target" ||
         option.name == "ess_fraction") {  // each belongs to one of the samplers compared
-      program.add_number(option_of(option.name), option.name == "cov_target" ? cov_target : ess_fraction,
-                         check_of(option), help, group_of(option.group));
+      app.add_option(option_of(option.name), option.name == "cov_target" ? cov_target : ess_fraction, help)
+          ->transform(check_of(option))
+          ->group(group_of(option.group));
     } else {
-      program.add_checked_text(option_of(option.name), values[std::string(option.name)], type_of(option),
-                               check_of(option), help, group_of(option.group));
+      app.add_option(option_of(option.name), values[std::string(option.name)], help)
+          ->type_name(type_of(option))
+          ->transform(check_of(option))
+          ->group(group_of(option.group));
     }
   };
   for (const tmcmc::OptionGroup group : {paper, beyond_the_paper}) {
     if (group == beyond_the_paper) {
-      program.add_choice("--sampler", sampler, sampler_names,
-                         "Sampler of the reading, or the recommended one; both criteria stay",
-                         group_of(group));
+      add_choice(app, "--sampler", sampler, sampler_names,
+                 "Sampler of the reading, or the recommended one; both criteria stay")
+          ->group(group_of(group));
     }
     for (const tmcmc::OptionText& option : tmcmc::option_table()) {
       if (option.group == group) {
@@ -79,8 +79,8 @@ void SamplerOptions::add_to(Program& program) {
       }
     }
   }
-  program.add_flag("--diagnose", diagnose, "Error of the log-evidence, effective sample sizes, warnings",
-                   group_of(beyond_the_paper));
+  app.add_flag("--diagnose", diagnose, "Error of the log-evidence, effective sample sizes, warnings")
+      ->group(group_of(beyond_the_paper));
 }
 
 std::optional<std::string> SamplerOptions::given(std::string_view name) const {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "command_line.hpp"
 #include "estimation/exact_posterior.hpp"
 #include "friction/observations.hpp"
+#include "options.hpp"
 #include "replication/columns.hpp"
 #include "replication/published.hpp"
 #include "replication/sample_tables.hpp"
@@ -37,8 +37,8 @@ struct InputFiles {
   std::string prior;              ///< empty: Table 2, with the reading's bound of the natural frequency
   std::string prior_correlation;  ///< empty: independent parameters
 
-  void add_observations_to(Program& program);
-  void add_prior_to(Program& program);
+  void add_observations_to(CLI::App& app);
+  void add_prior_to(CLI::App& app);
 };
 
 /// Path of a file in data/published/ of the current directory, or else of the source tree.
