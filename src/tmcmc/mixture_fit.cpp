@@ -7,6 +7,7 @@
 
 #include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/detail/clusters.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
 
 namespace tmcmc {
@@ -45,23 +46,6 @@ void deviations(Index rows, double centre, const double* z, const double* pull, 
   for (Index i = 0; i < rows; ++i) {
     deviation[i] = z[i] - centre;
     pulled[i] = pull[i] * deviation[i];
-  }
-}
-
-PORTABLE_MATH_MULTIVERSION
-void lower_distances(Index n, Index d, const double* points, const double* centre, double* work,
-                     double* least) {
-  for (Index i = 0; i < n; ++i) {
-    work[i] = 0.0;
-  }
-  for (Index j = 0; j < d; ++j) {
-    for (Index i = 0; i < n; ++i) {
-      const double distance = points[i + j * n] - centre[j];
-      work[i] += distance * distance;
-    }
-  }
-  for (Index i = 0; i < n; ++i) {
-    least[i] = work[i] < least[i] ? work[i] : least[i];
   }
 }
 
@@ -108,7 +92,7 @@ class Fit {
   }
 
  private:
-  /// Weighted k-means++: centres are points, each drawn in proportion to weight times squared distance from those before.
+  /// Components of clusters in coordinates whitened by the covariance of all points.
   [[nodiscard]] StudentMixture start(Index components, const StreamKey& key, std::uint32_t stage) {
     StudentMixture mixture;
     mixture.degrees_of_freedom = options_.degrees_of_freedom;
@@ -129,72 +113,7 @@ class Fit {
         white(i, j) = value / factor(j, j);
       }
     }
-    Eigen::VectorXd least = Eigen::VectorXd::Constant(n_, 1e300);
-    Eigen::VectorXd work(n_);
-    Eigen::VectorXd chance = data_.weights;
-    std::vector<Index> centres;
-    for (Index k = 0; k < components; ++k) {
-      const Words words = random_words(
-          key,
-          {.purpose = Purpose::reference, .stage = stage, .row = static_cast<std::uint64_t>(k), .draw = 1});
-      const double level = uniform_open(words[0]) * sum(chance.data(), n_);
-      Index chosen = 0;
-      double cumulative = 0.0;
-      for (Index i = 0; i < n_; ++i) {
-        cumulative += chance[i];
-        chosen = chance[i] > 0.0 ? i : chosen;
-        if (cumulative >= level) {
-          break;
-        }
-      }
-      centres.push_back(chosen);
-      const Eigen::VectorXd centre = white.row(chosen).transpose();
-      lower_distances(n_, d_, white.data(), centre.data(), work.data(), least.data());
-      for (Index i = 0; i < n_; ++i) {
-        chance[i] = data_.weights[i] * least[i];
-      }
-    }
-    return from_clusters(components, clusters(white, centres));
-  }
-
-  /// Number of the nearest centre of each point, after a few of Lloyd's iterations.
-  [[nodiscard]] std::vector<Index> clusters(const Population& white, const std::vector<Index>& first) const {
-    constexpr int iterations = 4;
-    const auto count = static_cast<Index>(first.size());
-    Eigen::MatrixXd centres(d_, count);
-    for (Index k = 0; k < count; ++k) {
-      centres.col(k) = white.row(first[static_cast<std::size_t>(k)]).transpose();
-    }
-    std::vector<Index> nearest(static_cast<std::size_t>(n_), 0);
-    for (int iteration = 0; iteration < iterations; ++iteration) {
-      Eigen::VectorXd least = Eigen::VectorXd::Constant(n_, 1e300);
-      Eigen::VectorXd distance(n_);
-      for (Index k = 0; k < count; ++k) {
-        const Eigen::VectorXd before = least;
-        lower_distances(n_, d_, white.data(), centres.col(k).data(), distance.data(), least.data());
-        for (Index i = 0; i < n_; ++i) {
-          if (least[i] < before[i]) {
-            nearest[static_cast<std::size_t>(i)] = k;
-          }
-        }
-      }
-      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(d_, count);
-      Eigen::VectorXd taken = Eigen::VectorXd::Zero(count);
-      for (Index i = 0; i < n_; ++i) {
-        taken[nearest[static_cast<std::size_t>(i)]] += data_.weights[i];
-      }
-      for (Index j = 0; j < d_; ++j) {
-        for (Index i = 0; i < n_; ++i) {
-          sums(j, nearest[static_cast<std::size_t>(i)]) += data_.weights[i] * white(i, j);
-        }
-      }
-      for (Index k = 0; k < count; ++k) {
-        if (taken[k] > 0.0) {
-          centres.col(k) = sums.col(k) / taken[k];
-        }
-      }
-    }
-    return nearest;
+    return from_clusters(components, detail::clusters(white, data_.weights, components, key, stage));
   }
 
   /// Components with the weights, means and covariances of the clusters.

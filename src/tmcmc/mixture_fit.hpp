@@ -25,10 +25,10 @@ struct MixtureFitOptions {
 };
 
 /// Maximum-likelihood fit of `components` components by expectation-maximisation with the parameter expansion of Kent, Tyler
-/// and Vardi (1994; Peel and McLachlan 2000 for mixtures), from a weighted k-means++ start (Arthur and Vassilvitskii 2007) in
-/// coordinates whitened by the covariance C of all points. With W_k the weight of the points that component k takes,
+/// and Vardi (1994; Peel and McLachlan 2000 for mixtures), from the clusters of the points (k-means++: Arthur and Vassilvitskii
+/// 2007) in coordinates whitened by the covariance of all points. With W_k the weight of the points that component k takes,
 ///
-///     S_k <- (1 - l_k) S_k + l_k C K^(-2/d),   l_k = (d+1) / (d+1 + W_k),
+///     S_k <- (1 - l_k) S_k + l_k sum_j W_j S_j / sum_j W_j,   l_k = (d+1) / (d+1 + W_k),
 ///
 /// keeps components of few points from collapsing; one that takes less than d+2 points goes. Components can so become fewer.
 /// \param stage  of Purpose::reference
@@ -42,7 +42,8 @@ struct MixtureFitOptions {
                                              const MixtureFitOptions& options);
 
 /// The same with the number of components that has the largest mean log-density on points that it was not fitted to:
-/// the groups of even number are fitted and the odd ones scored, and the other way round.
+/// the groups of even number are fitted and the odd ones scored, and the other way round. More components have to gain d over the
+/// sum of the weights at least, since the score of few points is noisy.
 [[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options,
                                          const StreamKey& key, std::uint32_t stage);
 
