@@ -13,7 +13,7 @@ budget = 31000
 orange = '#E69F00'
 sky = '#56B4E9'
 families = 'criterion samples steps scale moves chains recommended independent'
-titles = '"Criterion: N_{eff} from 0.9 N to 0.1 N" "Samples: N from 300 to 10 000" "Steps: 1 to 20" "Scale of the proposal" "Better proposals, one by one" "Waste-free, 8 to 128 chains" "Recommended, six budgets" "Independent draws, six budgets"'
+titles = '"Criterion: N_{eff} from 0.9 N to 0.1 N" "Samples: N from 300 to 10 000" "Steps: 1 to 20" "Scale of the proposal" "Better proposals, one by one" "Waste-free, 8 to 128 chains" "Recommended, six budgets" "Independent draws, four budgets"'
 set style line 21 lc rgb 'black' lw 0.9 pt 6 ps 0.6
 set style line 22 lc rgb sky lw 0.9 pt 5 ps 0.5
 set style line 23 lc rgb orange lw 0.9 pt 9 ps 0.6

@@ -169,7 +169,7 @@ std::vector<Configuration> configurations(const tmcmc::Options& published) {
     list.push_back(
         {"recommended", std::to_string(budget) + " evaluations", tmcmc::recommended_options(budget)});
   }
-  for (const tmcmc::Index budget : {4000, 8000, 16000, 31000, 62000, 124000}) {
+  for (const tmcmc::Index budget : {4000, 8000, 16000, 31000}) {
     list.push_back(
         {"independent", std::to_string(budget) + " evaluations", start, {{.evaluations = budget}}});
   }
