@@ -45,7 +45,8 @@ struct ModelOptions {
 };
 
 /// The program of the options, or the shear frame.
-/// \throws io::InputError naming file, line, column and value; models::ModelError if the program cannot be run.
+/// \throws io::InputError naming file, line, column and value; models::ModelError if the program
+///         cannot be run.
 [[nodiscard]] Model make_model(const ModelOptions& options);
 
 /// Samples, stages and observations in the layout of ArviZ.

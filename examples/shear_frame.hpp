@@ -1,6 +1,7 @@
 /// \file
-/// A two-storey shear frame whose storey stiffnesses are inferred from measured natural frequencies, in the manner of Beck and
-/// Au (2002): the model of own_model, to be replaced by the reader's.
+/// A two-storey shear frame whose storey stiffnesses are inferred from measured natural
+/// frequencies, in the manner of Beck and Au (2002): the model of own_model, to be replaced by the
+/// reader's.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,19 +13,22 @@ namespace examples {
 
 /// Measured natural frequencies, one entry a measurement.
 struct FrameObservations {
-  std::vector<long> mode;            ///< 1 or 2
-  std::vector<double> frequency_hz;  ///< positive
+  /// 1 or 2.
+  std::vector<long> mode;
+  /// Positive.
+  std::vector<double> frequency_hz;
 };
 
-/// Reads a CSV with columns mode and frequency_hz. \throws io::InputError naming file, line, column and value.
+/// Reads a CSV with columns mode and frequency_hz. \throws io::InputError naming file, line, column
+/// and value.
 [[nodiscard]] FrameObservations read_frame_observations(const std::string& path);
 
-/// Natural frequencies in Hz, ascending, of floors of 16000 kg on storeys of 3e7 N/m times the multipliers: the roots of
-/// m^2 w^4 - m (k1 + 2 k2) w^2 + k1 k2 = 0.
+/// Natural frequencies in Hz, ascending, of floors of 16000 kg on storeys of 3e7 N/m times the
+/// multipliers: the roots of m^2 w^4 - m (k1 + 2 k2) w^2 + k1 k2 = 0.
 [[nodiscard]] std::array<double, 2> frame_frequencies_hz(double stiffness_1, double stiffness_2);
 
-/// Log-likelihood of storey stiffnesses and noise: each measured frequency is Normal around that of the model, with a standard
-/// deviation of relative_noise times it.
+/// Log-likelihood of storey stiffnesses and noise: each measured frequency is Normal around that of
+/// the model, with a standard deviation of relative_noise times it.
 class FrameLikelihood {
  public:
   /// Columns of the points.

@@ -12,8 +12,8 @@
 namespace experiments {
 
 /// Words that `normalised` takes; `expected` completes "expected ...".
-/// \param normalised  the word as CLI11 parses it, which would take a leading 0 for octal and does not know 1e+06 for an
-///                    integer; nothing if it is refused
+/// \param normalised  the word as CLI11 parses it, which would take a leading 0 for octal and does
+///        not know 1e+06 for an integer; nothing if it is refused
 [[nodiscard]] CLI::Validator normalising(
     const std::function<std::optional<std::string>(const std::string&)>& normalised,
     const std::string& expected);

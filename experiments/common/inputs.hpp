@@ -34,8 +34,10 @@ using replication::require_runs_once;
 /// --observations and --prior.
 struct InputFiles {
   std::string observations;
-  std::string prior;              ///< empty: Table 2, with the reading's bound of the natural frequency
-  std::string prior_correlation;  ///< empty: independent parameters
+  /// Empty: Table 2, with the reading's bound of the natural frequency.
+  std::string prior;
+  /// Empty: independent parameters.
+  std::string prior_correlation;
 
   void add_observations_to(CLI::App& app);
   void add_prior_to(CLI::App& app);
@@ -47,16 +49,18 @@ struct InputFiles {
 /// The same of data/examples/.
 [[nodiscard]] std::string example(const std::string& file);
 
-/// Measurements in the columns of table1_observations.csv: r_nominal, r_measured, driving_frequency_hz,
-/// phase_deg. Warns on stderr of phases whose unit or sign is doubtful.
+/// Measurements in the columns of table1_observations.csv: r_nominal, r_measured,
+/// driving_frequency_hz, phase_deg. Warns on stderr of phases whose unit or sign is doubtful.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
 
-/// The prior of the four parameters of the paper from a file (prior_file.hpp); none of them may be negative.
+/// The prior of the four parameters of the paper from a file (prior_file.hpp); none of them may be
+/// negative.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] tmcmc::Prior read_prior(const std::string& path, const std::string& correlations = {});
 
-/// The prior that the options ask for: a file of the user's as it stands; else Table 2 as the reading has it.
+/// The prior that the options ask for: a file of the user's as it stands; else Table 2 as the
+/// reading has it.
 [[nodiscard]] tmcmc::Prior prior_for(const InputFiles& inputs, const replication::Reading& reading);
 
 /// The bounds of a uniform prior.
@@ -68,8 +72,9 @@ struct InputFiles {
 [[nodiscard]] estimation::ParameterPriors quadrature_priors(const tmcmc::Prior& prior);
 
 /// The exact posterior under a prior that the inputs gave.
-/// \throws io::InputError if the prior holds no friction force with continuous motion or a bound that a density cannot
-///         have, naming file, line, column and value of the prior; the file alone if it cannot be read again.
+/// \throws io::InputError if the prior holds no friction force with continuous motion or a bound
+///         that a density cannot have, naming file, line, column and value of the prior; the file
+///         alone if it cannot be read again.
 [[nodiscard]] estimation::ExactPosterior exact_posterior_for(const InputFiles& inputs,
                                                              const friction::Likelihood& likelihood,
                                                              const tmcmc::Prior& prior);

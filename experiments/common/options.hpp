@@ -1,5 +1,6 @@
 /// \file
-/// Options that several executables share, as values with the functions that add them to a command line.
+/// Options that several executables share, as values with the functions that add them to a command
+/// line.
 #pragma once
 
 #include <map>
@@ -40,8 +41,8 @@ struct SamplerOptions {
   bool diagnose = false;
 
   void add_to(CLI::App& app);
-  /// Replaces the sampler of the reading as the options say. Kind and target of the criterion, which belong to the two
-  /// samplers that are compared, are not touched (replication::paper_arms).
+  /// Replaces the sampler of the reading as the options say. Kind and target of the criterion,
+  /// which belong to the two samplers that are compared, are not touched (replication::paper_arms).
   /// \throws errors::InvalidValue naming the option, for values that are incompatible.
   void apply(replication::Reading& reading) const;
 };
@@ -57,7 +58,8 @@ struct TableOptions {
 struct RunOptions {
   long runs = 50;
   std::uint64_t seed = 1;
-  int threads = 0;  ///< 0: as many as the machine has
+  /// 0: as many as the machine has.
+  int threads = 0;
 
   void add_to(CLI::App& app, long least_runs = 1);
   void add_seed_to(CLI::App& app);

@@ -21,8 +21,9 @@ namespace io {
 ///  - lines end in LF or CRLF; a UTF-8 byte order mark and blank lines are skipped;
 ///  - blanks and tabs around a cell are dropped, inside quotes they are kept;
 ///  - a quoted cell ends on its own line;
-///  - there are no comments: a line above the header that begins with `#` is refused, unless it is the header itself, as
-///    numpy.savetxt writes it: it names as many columns as the next line has cells, and one of these is a number;
+///  - there are no comments: a line above the header that begins with `#` is refused, unless it is
+///    the header itself, as numpy.savetxt writes it: it names as many columns as the next line has
+///    cells, and one of these is a number;
 ///  - a first column without a name holds row numbers or row names (pandas, R) and is left out;
 ///  - the separator is the comma, the decimal sign the point, whatever the locale.
 ///
@@ -30,15 +31,17 @@ namespace io {
 ///
 ///     data/x.csv:4: column 'phase_deg': value 'abc': expected a finite number
 ///
-/// that begins with file and line and, where a cell is to blame, its column: by name, or by number in the header and
-/// beyond it. Files that cannot be read or have more than 4 GiB have no line to name.
+/// that begins with file and line and, where a cell is to blame, its column: by name, or by number
+/// in the header and beyond it. Files that cannot be read or have more than 4 GiB have no line to
+/// name.
 class CsvTable {
  public:
   /// Reads the whole file.
-  /// \throws InputError if it cannot be read, has no header or no row; if a column name is empty (but for that of row
-  ///         numbers or names) or repeated; if a row has not as many cells as the header; if a quote is not closed or
-  ///         stands inside an unquoted cell; if the file is UTF-16, holds NUL bytes or a CR without LF, is separated by
-  ///         semicolons or tabs, or has more than 4 GiB.
+  /// \throws InputError if it cannot be read, has no header or no row; if a column name is empty
+  ///         (but for that of row numbers or names) or repeated; if a row has not as many cells as
+  ///         the header; if a quote is not closed or stands inside an unquoted cell; if the file is
+  ///         UTF-16, holds NUL bytes or a CR without LF, is separated by semicolons or tabs, or has
+  ///         more than 4 GiB.
   static CsvTable read(const std::filesystem::path& path);
 
   /// The path as given to read().
@@ -59,9 +62,9 @@ class CsvTable {
   /// Others may exist too. \throws InputError naming the first column that is missing.
   void require_columns(std::initializer_list<std::string_view> columns) const;
 
-  /// A whole column of finite numbers, one a row, as the other columns below. Numbers are decimal, correctly rounded, and may
-  /// carry a sign; a magnitude that a double cannot hold (1e400, 1e-400), decimal commas, separators of thousands and
-  /// hexadecimal digits are refused.
+  /// A whole column of finite numbers, one a row, as the other columns below. Numbers are decimal,
+  /// correctly rounded, and may carry a sign; a magnitude that a double cannot hold (1e400,
+  /// 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
   /// \throws InputError if there is no such column or a cell does not fit.
   std::vector<double> numbers(std::string_view column) const;
   /// The same, with nan, inf and -inf in any case.
@@ -71,8 +74,8 @@ class CsvTable {
   /// Any text, the empty one included.
   std::vector<std::string> text(std::string_view column) const;
 
-  /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected` completes
-  /// the sentence "expected ...".
+  /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected`
+  /// completes the sentence "expected ...".
   [[noreturn]] void fail(std::size_t row, std::string_view column, std::string_view expected) const;
 
  private:
@@ -106,17 +109,20 @@ class CsvTable {
 /// Shortest decimal text that reads back as the same double; "nan" (without sign), "inf", "-inf".
 std::string format_number(double value);
 
-/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before commit().
+/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before
+/// commit().
 class CsvWriter {
  public:
   /// Opens the output ("-" is standard output) and writes the header.
-  /// \throws OutputError if it cannot be opened; std::logic_error if there is no column or a name is empty or repeated.
+  /// \throws OutputError if it cannot be opened; std::logic_error if there is no column or a name
+  ///         is empty or repeated.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
-  /// Writes one row: each argument a number, a text, or a range of doubles or texts that fills several cells. Doubles are
-  /// written by format_number. Texts are quoted where they must be; one with a line break in it is valid RFC 4180 but
-  /// CsvTable refuses it.
-  /// \throws OutputError; std::logic_error if the number of cells is not that of the columns: such a row leaves no trace.
+  /// Writes one row: each argument a number, a text, or a range of doubles or texts that fills
+  /// several cells. Doubles are written by format_number. Texts are quoted where they must be; one
+  /// with a line break in it is valid RFC 4180 but CsvTable refuses it.
+  /// \throws OutputError; std::logic_error if the number of cells is not that of the columns: such
+  ///         a row leaves no trace.
   template <class... Cells>
   void row(const Cells&... cells) {
     (append(cells), ...);

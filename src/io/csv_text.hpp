@@ -9,8 +9,8 @@
 
 namespace io::csv_text {
 
-/// All bytes of the file or pipe, up to and with the first block that holds a NUL: the parser refuses that byte with its
-/// place, and a source of zeros has no end.
+/// All bytes of the file or pipe, up to and with the first block that holds a NUL: the parser
+/// refuses that byte with its place, and a source of zeros has no end.
 /// \throws InputError naming the file, if it cannot be read, is a directory or has more than 4 GiB.
 [[nodiscard]] std::string bytes_of(const std::filesystem::path& path);
 
@@ -22,7 +22,8 @@ namespace io::csv_text {
 [[nodiscard]] std::string quoted_value(std::string_view text);
 /// What stands between the separators that are not in quotes, trimmed, with its quotes.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
-/// Whether the line has as many cells as the comment above it has names, and one of them is a number.
+/// Whether the line has as many cells as the comment above it has names, and one of them is a
+/// number.
 [[nodiscard]] bool is_row_below(std::string_view comment, std::string_view line);
 
 /// Sets the value and returns what was expected, or nothing if the text fits; nan and inf fit.

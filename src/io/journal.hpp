@@ -10,16 +10,20 @@
 
 namespace io {
 
-/// Rows of a long computation, kept as they come, so that a run that was killed goes on where it stopped.
+/// Rows of a long computation, kept as they come, so that a run that was killed goes on where it
+/// stopped.
 ///
-/// The journal of an output PATH is the file PATH.journal. Its first line is the key, each further line a row; after a tab
-/// stands the line's CRC-32, seeded with that of the key. Only one process may have it open.
+/// The journal of an output PATH is the file PATH.journal. Its first line is the key, each further
+/// line a row; after a tab stands the line's CRC-32, seeded with that of the key. Only one process
+/// may have it open.
 class Journal {
  public:
-  /// Opens the journal or starts one. From the first row on that is cut off or damaged the rows are dropped.
+  /// Opens the journal or starts one. From the first row on that is cut off or damaged the rows are
+  /// dropped.
   /// \param key  one line that names everything the rows depend on
-  /// \throws InputError if the journal there has another or a damaged key (one that was cut off counts as none), is no regular
-  ///         file, or another process has it open; OutputError if it cannot be opened or written.
+  /// \throws InputError if the journal there has another or a damaged key (one that was cut off
+  ///         counts as none), is no regular file, or another process has it open; OutputError if it
+  ///         cannot be opened or written.
   Journal(const std::filesystem::path& output, const std::string& key);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -30,7 +34,8 @@ class Journal {
   /// Complete rows, without line ends.
   [[nodiscard]] const std::vector<std::string>& rows() const { return rows_; }
 
-  /// Whether whole lines were dropped when the journal was opened, as damaged. A last line that was cut off is no damage.
+  /// Whether whole lines were dropped when the journal was opened, as damaged. A last line that was
+  /// cut off is no damage.
   [[nodiscard]] bool was_damaged() const { return was_damaged_; }
 
   /// Appends rows, none with a line end in it, in one write and waits until they are on the disk.

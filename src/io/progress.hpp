@@ -8,9 +8,9 @@
 
 namespace io {
 
-/// A progress bar on standard error. It appears only if standard error is a terminal and the work has lasted
-/// more than 1.5 s, redraws at most ten times a second, and is gone when the object is. Otherwise does
-/// nothing.
+/// A progress bar on standard error. It appears only if standard error is a terminal and the work
+/// has lasted more than 1.5 s, redraws at most ten times a second, and is gone when the object is.
+/// Otherwise does nothing.
 class Progress {
  public:
   /// `label` stands before the bar, `total` is the number of steps; a total of 0 shows nothing.
@@ -20,7 +20,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// Counts n more steps as done. Thread-safe, never waits for the terminal of another thread.
-  /// \throws Interrupted, nothing else: work that shows its progress can be interrupted at each step.
+  /// \throws Interrupted, nothing else: work that shows its progress can be interrupted at each
+  ///         step.
   void advance(std::size_t n = 1);
 
  private:

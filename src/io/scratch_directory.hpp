@@ -4,8 +4,8 @@
 
 namespace io {
 
-/// A directory of temporary files, `$TMPDIR/NAME-XXXXXX`, that is removed with all that is in it. A kill -9 leaves it
-/// behind.
+/// A directory of temporary files, `$TMPDIR/NAME-XXXXXX`, that is removed with all that is in it. A
+/// kill -9 leaves it behind.
 class ScratchDirectory {
  public:
   /// \param name  without a slash

@@ -18,8 +18,8 @@ struct ClaimTable {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] ClaimTable read_claims(const std::string& path);
 
-/// Over the runs of a study, as sampling_study writes them: rank correlation of the iterations with the distance of the mean friction
-/// force from the exact one.
+/// Over the runs of a study, as sampling_study writes them: rank correlation of the iterations with
+/// the distance of the mean friction force from the exact one.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n);
 

@@ -11,12 +11,13 @@
 
 namespace replication {
 
-/// Names of the four parameters in columns of generated files, in the order of friction::Parameter, with
-/// units.
+/// Names of the four parameters in columns of generated files, in the order of friction::Parameter,
+/// with units.
 inline const std::vector<std::string> parameter_columns = {"friction_force_n", "natural_frequency_hz",
                                                            "phase_noise_deg", "frequency_ratio_noise"};
 
-/// The values of a column, each of which the rule has to allow; `expected` completes the sentence "expected ...".
+/// The values of a column, each of which the rule has to allow; `expected` completes the sentence
+/// "expected ...".
 /// \throws io::InputError naming file, line, column and value.
 template <class Value, class Rule>
 [[nodiscard]] std::vector<Value> checked(const io::CsvTable& table, std::string_view column,

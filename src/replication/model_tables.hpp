@@ -9,7 +9,8 @@
 
 namespace replication {
 
-/// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion (Eq. 18), a row a point.
+/// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion
+/// (Eq. 18), a row a point.
 struct Phases {
   std::vector<double> phase_deg, limit_force_ratio;
 };

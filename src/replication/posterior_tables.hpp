@@ -14,12 +14,18 @@ namespace replication {
 
 /// What the runs of one sampler are off in one quantity.
 struct QuantityError {
-  std::string sampler;              ///< as in the runs
-  std::string quantity;             ///< one of estimated_quantities
-  std::size_t runs;                 ///< number of estimates
-  double exact;                     ///< value of the exact posterior
-  statistics::EstimateError error;  ///< of the estimates
-  /// Number of independent samples whose mean would spread as much; NaN of other quantities than means.
+  /// As in the runs.
+  std::string sampler;
+  /// One of estimated_quantities.
+  std::string quantity;
+  /// Number of estimates.
+  std::size_t runs;
+  /// Value of the exact posterior.
+  double exact;
+  /// Of the estimates.
+  statistics::EstimateError error;
+  /// Number of independent samples whose mean would spread as much; NaN of other quantities than
+  /// means.
   double effective_size;
 };
 
@@ -30,11 +36,16 @@ struct QuantityError {
 
 /// A place on the exact marginal of a parameter.
 struct MarginalPoint {
-  std::size_t parameter;   ///< friction::Parameter
-  double x;                ///< in the unit of the parameter
-  double density;          ///< exact, per that unit
-  double cdf;              ///< exact
-  double laplace_density;  ///< of the normal approximation
+  /// Friction::Parameter.
+  std::size_t parameter;
+  /// In the unit of the parameter.
+  double x;
+  /// Exact, per that unit.
+  double density;
+  /// Exact.
+  double cdf;
+  /// Of the normal approximation.
+  double laplace_density;
 };
 
 /// Each marginal at equal distances over all but 2e-4 of its probability.
@@ -45,11 +56,16 @@ struct MarginalPoint {
 
 /// A bin of the pooled samples of a sampler.
 struct HistogramBin {
-  std::string sampler;    ///< as in the samples
-  std::size_t parameter;  ///< friction::Parameter
-  double low;             ///< in the unit of the parameter
-  double high;            ///< the next bin's low
-  double density;         ///< per that unit
+  /// As in the samples.
+  std::string sampler;
+  /// Friction::Parameter.
+  std::size_t parameter;
+  /// In the unit of the parameter.
+  double low;
+  /// The next bin's low.
+  double high;
+  /// Per that unit.
+  double density;
 };
 
 /// Histograms over the ranges of marginal_points.

@@ -11,10 +11,13 @@
 
 namespace replication {
 
-/// Columns of one sampler's runs, from a file with columns `sampler`, `run` and one or more of numbers.
+/// Columns of one sampler's runs, from a file with columns `sampler`, `run` and one or more of
+/// numbers.
 struct GroupedColumns {
-  std::vector<std::string> samplers;  ///< in the order in which they first appear
-  std::vector<std::string> columns;   ///< all but sampler and run
+  /// In the order in which they first appear.
+  std::vector<std::string> samplers;
+  /// All but sampler and run.
+  std::vector<std::string> columns;
   /// values[sampler][column][run]: the numbers in the order of the file
   std::vector<std::vector<std::vector<std::vector<double>>>> values;
 };
@@ -25,15 +28,18 @@ struct GroupedColumns {
 /// The same of a table that was read.
 [[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table);
 
-/// The same, of which only the columns with the names stay, in their order; `expected` says what file was expected.
+/// The same, of which only the columns with the names stay, in their order; `expected` says what
+/// file was expected.
 /// \throws as read_samples; for a column that is missing.
 [[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table, const std::vector<std::string>& names,
                                           const std::string& expected);
 
-/// Mean and standard deviation of each parameter in turn, and the log-evidence: columns of the runs of a study.
+/// Mean and standard deviation of each parameter in turn, and the log-evidence: columns of the runs
+/// of a study.
 [[nodiscard]] const std::vector<std::string>& estimated_quantities();
 
-/// What each run estimates, in the order of estimated_quantities, from the runs that sampling_study writes.
+/// What each run estimates, in the order of estimated_quantities, from the runs that sampling_study
+/// writes.
 /// \throws as read_samples; for a second row of a run or a negative standard deviation.
 [[nodiscard]] GroupedColumns read_estimates(const std::string& path);
 
@@ -44,10 +50,14 @@ struct GroupedColumns {
 
 /// What the runs of one sampler say of themselves.
 struct Diagnoses {
-  statistics::Moments log_evidence;  ///< by bridge sampling, over the runs
-  double standard_error;             ///< of the log-evidence of a run: root mean square of what the runs say
-  double smallest_effective_size;    ///< of any parameter and run
-  std::map<std::string, long> warned;  ///< number of runs by kind of warning
+  /// By bridge sampling, over the runs.
+  statistics::Moments log_evidence;
+  /// Of the log-evidence of a run: root mean square of what the runs say.
+  double standard_error;
+  /// Of any parameter and run.
+  double smallest_effective_size;
+  /// Number of runs by kind of warning.
+  std::map<std::string, long> warned;
 };
 /// \param runs  with diagnostics (Options::diagnose), at least one
 [[nodiscard]] Diagnoses diagnoses_of(const std::vector<Run>& runs);

@@ -25,7 +25,8 @@ namespace replication {
 
 /// Tables 3 and 4 as printed, from the directory of printed tables.
 struct PrintedTables {
-  std::vector<PrintedArea> areas;  ///< friction force and natural frequency of each sampler
+  /// Friction force and natural frequency of each sampler.
+  std::vector<PrintedArea> areas;
   std::vector<PrintedCounts> counts;
   std::string counts_path;
 };
@@ -37,8 +38,8 @@ struct PrintedTables {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] std::vector<StudySummary> read_studies(const std::string& path, const PrintedTables& printed);
 
-/// The null distribution for the two printed samplers: both samplers' studies if they are equivalent. The bootstrap behind
-/// that has a fixed seed of its own.
+/// The null distribution for the two printed samplers: both samplers' studies if they are
+/// equivalent. The bootstrap behind that has a fixed seed of its own.
 /// \throws io::InputError unless two samplers were printed.
 [[nodiscard]] Null null_of(const std::vector<StudySummary>& studies, const PrintedTables& printed);
 

@@ -9,8 +9,10 @@ namespace statistics {
 
 /// Mean and standard deviation (N - 1; NaN for one value, which has none) in index order.
 struct Moments {
-  double mean = 0.0;                ///< sum over n
-  double standard_deviation = 0.0;  ///< in the unit of the values
+  /// Sum over n.
+  double mean = 0.0;
+  /// In the unit of the values.
+  double standard_deviation = 0.0;
 };
 /// \throws errors::InvalidValue if there is no value.
 [[nodiscard]] Moments moments(std::span<const double> values);
@@ -20,11 +22,14 @@ struct Moments {
 
 /// An interval that holds 95 %: of what, its owner says.
 struct Interval95 {
-  double low;   ///< 2.5 % lie below
-  double high;  ///< 2.5 % lie above
+  /// 2.5 % lie below.
+  double low;
+  /// 2.5 % lie above.
+  double high;
 };
 
-/// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan 1996).
+/// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan
+/// 1996).
 /// \param sorted  ascending, not empty
 /// \param p  in [0, 1]
 [[nodiscard]] double sample_quantile(std::span<const double> sorted, double p);
@@ -32,19 +37,25 @@ struct Interval95 {
 /// Central 95 % interval of the draws.
 [[nodiscard]] Interval95 central_95(std::vector<double> null);
 
-/// What estimates of independent runs are off, against the exact value; in the unit of the estimates.
+/// What estimates of independent runs are off, against the exact value; in the unit of the
+/// estimates.
 struct EstimateError {
-  double mean;              ///< of the estimates
-  double bias;              ///< mean - exact value
-  double standard_error;    ///< of the bias: spread / sqrt(n)
-  double spread;            ///< standard deviation (n - 1); NaN for one estimate
-  double root_mean_square;  ///< of the differences from the exact value
+  /// Of the estimates.
+  double mean;
+  /// Mean - exact value.
+  double bias;
+  /// Of the bias: spread / sqrt(n).
+  double standard_error;
+  /// Standard deviation (n - 1); NaN for one estimate.
+  double spread;
+  /// Of the differences from the exact value.
+  double root_mean_square;
 };
 /// \throws errors::InvalidValue if there is no estimate.
 [[nodiscard]] EstimateError error_of(std::span<const double> estimates, double exact);
 
-/// Number of values in each of equal bins from `low` to `high`, the lower end of a bin included; values outside count in
-/// none.
+/// Number of values in each of equal bins from `low` to `high`, the lower end of a bin included;
+/// values outside count in none.
 /// \throws errors::InvalidValue unless low < high and there is a bin.
 [[nodiscard]] std::vector<long> histogram(std::span<const double> values, double low, double high, long bins);
 

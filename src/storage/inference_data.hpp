@@ -11,9 +11,10 @@
 ///     observed_data   what was measured, (observation)
 ///     constant_data   what else the likelihood knows of each measurement, (observation)
 ///
-/// The last three are there if the model gives them. There is one chain: the samples of a population are exchangeable, and their
-/// effective sample size is known to the sampler alone (attributes effective_sample_size_NAME). The file holds no time: the same
-/// results give the same bytes.
+/// The last three are there if the model gives them. There is one chain: the samples of a
+/// population are exchangeable, and their effective sample size is known to the sampler alone
+/// (attributes effective_sample_size_NAME). The file holds no time: the same results give the same
+/// bytes.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,11 +41,13 @@ struct InferenceData {
   Eigen::VectorXd log_likelihood = {};
   /// Columns of one length, the number of stages.
   std::vector<Column> stages = {};
-  /// Columns of one length, the number of observations; none if the likelihood is not one of known observations.
+  /// Columns of one length, the number of observations; none if the likelihood is not one of known
+  /// observations.
   std::vector<Column> observed = {};
   /// Columns of the same length.
   std::vector<Column> constant = {};
-  /// Log-likelihoods of single observations by the name of an observed variable, n x observations each.
+  /// Log-likelihoods of single observations by the name of an observed variable, n x observations
+  /// each.
   std::vector<std::pair<std::string, Eigen::MatrixXd>> pointwise_log_likelihood = {};
   /// Attributes, such as log_evidence.
   std::vector<std::pair<std::string, double>> numbers = {};
@@ -57,7 +60,8 @@ struct InferenceData {
 void require_parameter_name(const std::string& name);
 
 /// Writes the whole file into an output that the caller has opened, and commits.
-/// \throws io::OutputError; errors::InvalidValue for lengths that do not agree or names that NetCDF refuses.
+/// \throws io::OutputError; errors::InvalidValue for lengths that do not agree or names that NetCDF
+///         refuses.
 void write_inference_data(io::OutputFile& output, const InferenceData& data);
 
 }  // namespace storage

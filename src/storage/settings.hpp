@@ -1,5 +1,6 @@
 /// \file
-/// What the numbers of a run depend on, as names and values: to tell one run from another, and to say where they differ.
+/// What the numbers of a run depend on, as names and values: to tell one run from another, and to
+/// say where they differ.
 #pragma once
 
 #include <string>
@@ -14,21 +15,26 @@ namespace storage {
 
 /// All that the numbers of a run depend on.
 struct RunDescription {
-  tmcmc::Options options;  ///< threads, batch_rows and max_stages do not count
-  tmcmc::StreamKey key;    ///< of the random streams
-  tmcmc::Prior prior;      ///< of the parameters
-  /// One line of the caller's that names all else: the model, its data, their version, and a step rule if one is used.
+  /// Threads, batch_rows and max_stages do not count.
+  tmcmc::Options options;
+  /// Of the random streams.
+  tmcmc::StreamKey key;
+  /// Of the parameters.
+  tmcmc::Prior prior;
+  /// One line of the caller's that names all else: the model, its data, their version, and a step
+  /// rule if one is used.
   std::string model;
 };
 
 /// Name and value, the latter one line; numbers in digits that read back as the same double.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Each option that has a meaning under the others, but for those on which no number of a stage depends
-/// (OptionInfo::changes_samples).
+/// Each option that has a meaning under the others, but for those on which no number of a stage
+/// depends (OptionInfo::changes_samples).
 [[nodiscard]] Settings settings(const tmcmc::Options& options);
 
-/// The options, seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no box, and model.
+/// The options, seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no
+/// box, and model.
 /// \throws errors::InvalidValue if the model's description is not one line.
 [[nodiscard]] Settings settings(const RunDescription& run);
 
