@@ -201,6 +201,35 @@ void one_run(benchmark::State& state) {
 }
 BENCHMARK(one_run)->Unit(benchmark::kMillisecond);
 
+/// The same run under other priors than the box, by evaluation: independent log-normal ones, four with other densities, a copula.
+void one_run_with_prior(benchmark::State& state) {
+  using tmcmc::Marginal;
+  Setting s;
+  const std::vector<tmcmc::Parameter> log_normal = {
+      {"friction_force", "N", Marginal::log_normal_of_mean(2.0, 2.0)},
+      {"natural_frequency", "Hz", Marginal::log_normal_of_mean(4.0, 2.0)},
+      {"phase_noise", "deg", Marginal::log_normal_of_mean(3.0, 2.0)},
+      {"ratio_noise", "", Marginal::log_normal_of_mean(0.05, 0.05)}};
+  const std::vector<tmcmc::Parameter> mixed = {
+      {"friction_force", "N", Marginal::gamma(2.0, 1.0)},
+      {"natural_frequency", "Hz", Marginal::truncated_normal(3.0, 2.0, 0.01, 10.0)},
+      {"phase_noise", "deg", Marginal::half_normal(5.0)},
+      {"ratio_noise", "", Marginal::log_uniform(0.001, 1.0)}};
+  Eigen::Matrix4d correlations = Eigen::Matrix4d::Identity();
+  correlations(0, 1) = correlations(1, 0) = 0.5;
+  correlations(2, 3) = correlations(3, 2) = 0.3;
+  const std::vector<tmcmc::Prior> priors = {s.prior, tmcmc::Prior(log_normal), tmcmc::Prior(mixed),
+                                            tmcmc::Prior(log_normal, {correlations})};
+  s.problem.prior = priors[static_cast<std::size_t>(state.range(0))];
+  double evaluations = 0.0;
+  for (auto _ : state) {
+    evaluations =
+        static_cast<double>(tmcmc::run(s.problem, s.arms[1].options, {.seed = 1}).final.evaluations);
+  }
+  per_item(state, evaluations);
+}
+BENCHMARK(one_run_with_prior)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
+
 void one_large_run(benchmark::State& state) {
   const Setting s;
   auto options = s.arms[0].options;

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -141,7 +143,11 @@ std::string any_of_these(const std::vector<std::string>& names) {
              : fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
-tmcmc::Correlation read_correlations(const std::string& path, const std::vector<std::string>& names) {
+tmcmc::Correlation read_correlations(const std::string& path,
+                                     const std::vector<tmcmc::Parameter>& parameters) {
+  std::vector<std::string> names;
+  std::transform(parameters.begin(), parameters.end(), std::back_inserter(names),
+                 [](const auto& p) { return p.name; });
   const auto table = io::CsvTable::read(path);
   const auto& columns = table.column_names();
   const std::string first = columns.front();
@@ -191,11 +197,19 @@ tmcmc::Correlation read_correlations(const std::string& path, const std::vector<
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
+      const double value = result.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       const double other = result.matrix(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i));
-      if (result.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) != other) {
+      if (value != other) {
         table.fail(line[i], names[j],
                    fmt::format("{}, as in line {} on the other side of the diagonal",
                                io::format_number(other), table.line(line[j])));
+      }
+      const Eigen::Matrix2d pair = (Eigen::Matrix2d() << 1.0, value, value, 1.0).finished();
+      const std::array marginals = {parameters[i].marginal, parameters[j].marginal};
+      try {  // each pair alone, to name its cell
+        static_cast<void>(tmcmc::normal_score_correlation({pair, result.of}, marginals));
+      } catch (const errors::InvalidValue& error) {
+        table.fail(line[i], names[j], error.expected());
       }
     }
   }
@@ -255,11 +269,7 @@ tmcmc::Prior read_prior(const PriorFiles& files, const ParameterRules& rules) {
   if (files.correlations.empty()) {
     return tmcmc::Prior(std::move(parameters));
   }
-  std::vector<std::string> order;
-  for (const auto& parameter : parameters) {
-    order.push_back(parameter.name);
-  }
-  const auto correlation = read_correlations(files.correlations, order);
+  const auto correlation = read_correlations(files.correlations, parameters);
   try {
     return tmcmc::Prior(std::move(parameters), correlation);
   } catch (const errors::InvalidValue& error) {

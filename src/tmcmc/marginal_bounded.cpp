@@ -1,4 +1,6 @@
 // Uniform, log-uniform, beta and triangular distributions.
+#include <utility>
+
 #include "tmcmc/detail/marginal_family.hpp"
 
 namespace tmcmc {
@@ -139,6 +141,14 @@ void add_kernel(const Triangular& family, const double* x, std::size_t n, double
 }  // namespace
 
 Marginal Marginal::uniform(double lower, double upper) {
+  for (const auto& [name, bound] : {std::pair("lower", lower), std::pair("upper", upper)}) {
+    if (!std::isfinite(bound)) {
+      throw errors::InvalidValue(
+          name, bound,
+          "a finite number: a constant density without bounds has no finite integral, and "
+          "without a normalised prior there is no evidence");
+    }
+  }
   detail::require_interval(lower, upper);
   return {"uniform", {lower, upper}, std::make_shared<Uniform>(lower, upper)};
 }

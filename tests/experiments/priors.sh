@@ -39,6 +39,10 @@ refuse_matrix '4d' " column 'normal_score': no row and column 'relative_noise'"
 refuse_matrix '1s/normal_score/name/' " first column 'name'"
 refuse_matrix '2s/0$/0.9/; 3s/0$/-0.9/; 4s/0,0/0.9,-0.9/' " correlation: expected a positive definite matrix"
 
+printf 'parameter,stiffness_1,stiffness_2,relative_noise\nstiffness_1,1,0,-0.95\nstiffness_2,0,1,0\nrelative_noise,-0.95,0,1\n' >bad.csv
+expect_error 2 "bad.csv:4: column 'stiffness_1': value '-0.95': expected a number from -0." \
+  $own --prior $good --prior-correlation bad.csv --output failed.csv
+
 # The friction experiments: what cannot be integrated or approximated under such a prior says so.
 printf '%s\n' parameter,distribution,lower,upper,mean,sd friction_force,,0.01,10,, natural_frequency,log_normal,,,3,1 \
   phase_noise,half_normal,,,,5 frequency_ratio_noise,log_uniform,0.001,1,, >friction.csv

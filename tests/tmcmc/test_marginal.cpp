@@ -214,6 +214,13 @@ TEST_CASE("an argument out of its range is named", "[tmcmc][marginal]") {
   CHECK(field_of([] { return Marginal::triangular(0.0, 2.0, 1.0); }) == "mode");
 }
 
+TEST_CASE("improper priors are refused with the reason", "[tmcmc][marginal]") {
+  const auto reason = Catch::Matchers::Contains("without a normalised prior there is no evidence");
+  CHECK_THROWS_WITH(Marginal::uniform(0.0, infinity), reason);
+  CHECK_THROWS_WITH(Marginal::uniform(-infinity, 0.0), reason);
+  CHECK_THROWS_WITH(Marginal::log_uniform(0.0, 1.0), Catch::Matchers::Contains("there is no evidence"));
+}
+
 TEST_CASE("distributions are found by name and by the names of their arguments", "[tmcmc][marginal]") {
   for (const auto& row : tmcmc::distributions()) {
     std::map<std::string, double, std::less<>> arguments;
