@@ -112,7 +112,8 @@ void visit_proposal_options(AnyProposal& proposal, Visit&& visit) {
   visit({"max_redraws", computation, whole_from(1), "Most times that a proposal is drawn again", "boundary",
          RedrawnWalk::name},
         member_of(std::get_if<RedrawnWalk>(&proposal), &RedrawnWalk::max_redraws));
-  visit({"coordinates", beyond_the_paper, named(), "Of the proposals: the parameters, or unbounded functions of them", "boundary",
+  visit({"coordinates", beyond_the_paper, named(),
+         "Of the proposals: the parameters, or unbounded functions of them", "boundary",
          MetropolisProposal::name},
         member_of(metropolis, &MetropolisProposal::coordinates));
   visit({"random_subsets", beyond_the_paper, named(), "Change random sets of coordinates", "boundary",
