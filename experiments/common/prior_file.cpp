@@ -152,11 +152,11 @@ tmcmc::Correlation read_correlations(const std::string& path,
   const auto& columns = table.column_names();
   const std::string first = columns.front();
   if (first != "parameter" && first != "normal_score") {
-    throw io::InputError({.path = path,
-                          .found = "first column '" + io::printable(first) + "'",
-                          .expected =
-                              "a first column 'parameter' (the correlations are those of the parameters) or "
-                              "'normal_score' (those of their normal scores)"});
+    throw io::InputError(
+        {.path = path,
+         .line = 1,
+         .found = fmt::format("header '{}'", io::printable(fmt::format("{}", fmt::join(columns, ",")), 200)),
+         .expected = "a column 'parameter' first, or for correlations of normal scores 'normal_score'"});
   }
   for (std::size_t c = 1; c < columns.size(); ++c) {
     if (place_of(names, columns[c]) == names.size()) {

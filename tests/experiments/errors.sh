@@ -15,6 +15,7 @@ printf 'a,b\n1,2\n' >other.csv
 printf '# rig 2\na,b\n1,2\n' >comment.csv
 printf 'a,b\n1,2\n# rig 2\n' >between.csv
 printf ',a\n0.5,2\n' >unnamed.csv
+echo parameter,friction_force,natural_frequency >correlation.csv
 printf '#!/no/such/sh\n' >interpreter.sh && chmod +x interpreter.sh
 { timeout -s KILL 1 "$bin/replicated_study" $small --studies 100000 --output kept.csv; } 2>/dev/null
 
@@ -22,6 +23,7 @@ printf '#!/no/such/sh\n' >interpreter.sh && chmod +x interpreter.sh
 make_bad() {  # EXECUTABLE OPTION
   local from
   case $1$2 in
+    *--prior-correlation) from=correlation.csv ;;
     own_model--*) from=$(grep -oE -- "$2 CSV=[^ ]+" "help/$1" | cut -d= -f2) ;;
     *--observations) from=data/published/table1_observations.csv ;;
     *--prior) from=data/published/table2_prior.csv ;;

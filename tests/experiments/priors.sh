@@ -36,7 +36,7 @@ refuse_matrix '2s/0.5/1.5/' "2: column 'stiffness_2': value '1.5': expected a nu
 refuse_matrix '2s/0.5/0.4/' "3: column 'stiffness_1': value '0.5': expected 0.4, as in line 2"
 refuse_matrix '2s/,1,/,2,/' "2: column 'stiffness_1': value '2': expected 1, the correlation of a parameter with itself"
 refuse_matrix '4d' " column 'normal_score': no row and column 'relative_noise'"
-refuse_matrix '1s/normal_score/name/' " first column 'name'"
+refuse_matrix '1s/normal_score/name/' "1: header 'name,"
 refuse_matrix '2s/0$/0.9/; 3s/0$/-0.9/; 4s/0,0/0.9,-0.9/' " correlation: expected a positive definite matrix"
 
 printf 'parameter,stiffness_1,stiffness_2,relative_noise\nstiffness_1,1,0,-0.95\nstiffness_2,0,1,0\nrelative_noise,-0.95,0,1\n' >bad.csv
