@@ -26,7 +26,7 @@ namespace {
 using tmcmc::Index;
 
 /// The file: this line, the checksum of the rest, and the rest in cereal's portable binary form.
-constexpr std::string_view first_line = "tmcmc checkpoint 2\n";
+constexpr std::string_view first_line = "tmcmc checkpoint 3\n";
 constexpr std::size_t checksum_size = 9;  // eight hexadecimal digits and a line end
 constexpr std::string_view start_again = "(delete it to start again)";
 constexpr std::size_t longest_value = 120;
@@ -69,7 +69,7 @@ template <class Archive>
 void transfer(Archive& archive, tmcmc::Progress& progress, tmcmc::BridgeSums& sums) {
   tmcmc::State& state = progress.state;
   archive(state.stage, state.beta, state.log_evidence, state.evaluations, state.proposal_scale,
-          state.genealogy.chains, state.genealogy.ancestors);
+          state.genealogy.chains, state.genealogy.parents);
   transfer_matrix(archive, state.points);
   transfer_matrix(archive, state.log_likelihood);
   std::size_t stages = progress.stages.size();
@@ -78,7 +78,7 @@ void transfer(Archive& archive, tmcmc::Progress& progress, tmcmc::BridgeSums& su
   for (tmcmc::StageRecord& record : progress.stages) {
     transfer_stage(archive, record);
   }
-  archive(sums.log_evidence, sums.least_variance, sums.influence, sums.parents);
+  archive(sums.log_evidence, sums.least_variance, sums.influence);
 }
 
 void require_same(const Settings& theirs, const std::filesystem::path& path, const Settings& ours) {

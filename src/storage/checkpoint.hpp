@@ -2,7 +2,7 @@
 /// The progress of a run in a file, so that a run that was killed goes on after its last stage and
 /// ends with the same bytes.
 ///
-/// The file holds the line `tmcmc checkpoint 2`, a line with the CRC-32 (that of zlib) of all bytes
+/// The file holds the line `tmcmc checkpoint 3`, a line with the CRC-32 (that of zlib) of all bytes
 /// behind it, and in the portable binary form of the library cereal what the run depends on
 /// (storage::settings) and its tmcmc::Progress.
 #pragma once

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "names/names.hpp"
 #include "portable_math/sums.hpp"
 #include "tmcmc/evidence.hpp"
 
@@ -24,7 +25,7 @@ std::vector<Index> by_row(std::span<const Index> of_chain, Index rows) {
 }
 
 std::vector<Index> groups_of(const Genealogy& genealogy, Index rows) {
-  for (const auto& ancestors : genealogy.ancestors) {
+  for (const auto& ancestors : genealogy.ancestors()) {
     if (effective_groups(ancestors) >= fewest_groups) {
       return by_row(ancestors, rows);
     }
@@ -73,7 +74,8 @@ double normal_score(double t, double degrees_of_freedom) {
                        t);
 }
 
-/// Drift of the log-likelihood along the chains. Both bounds together are exceeded by chance in less than 1 % of runs.
+/// Drift of the log-likelihood along the chains. Both bounds together are exceeded by chance in
+/// less than 1 % of runs.
 void check_equilibrium(const Result& result, const Options& options, Warnings& warnings) {
   constexpr double most_in_a_stage = 4.5;
   constexpr double most_in_all = 3.0;
@@ -108,39 +110,11 @@ void check_equilibrium(const Result& result, const Options& options, Warnings& w
 }  // namespace
 
 const char* describe(StopReason stop) {
-  switch (stop) {
-    case StopReason::completed:
-      return "posterior reached";
-    case StopReason::stage_limit:
-      return "max_stages reached";
-    case StopReason::step_too_small:
-      return "next step below minimum_step";
-    case StopReason::budget:
-      return "next stage beyond evaluation_budget";
-  }
-  return "";
+  return names::name_of(stop).data();
 }
 
 const char* describe(WarningKind kind) {
-  switch (kind) {
-    case WarningKind::not_completed:
-      return "not completed";
-    case WarningKind::few_feasible:
-      return "few feasible draws";
-    case WarningKind::few_ancestors:
-      return "few ancestors";
-    case WarningKind::low_acceptance:
-      return "low acceptance";
-    case WarningKind::low_effective_size:
-      return "low effective sample size";
-    case WarningKind::uncertain_evidence:
-      return "uncertain evidence";
-    case WarningKind::few_for_covariance:
-      return "few samples for the covariance";
-    case WarningKind::not_in_equilibrium:
-      return "not in equilibrium";
-  }
-  return "";
+  return names::name_of(kind).data();
 }
 
 Diagnostics diagnose(const Result& result, const Options& options, std::span<const std::string> names) {

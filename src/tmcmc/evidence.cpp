@@ -37,7 +37,8 @@ struct LogisticSums {
   double slope;
 };
 
-/// Where a population has nothing in common with the other, both are the least number, as in the limit.
+/// Where a population has nothing in common with the other, both are the least number, as in the
+/// limit.
 PORTABLE_MATH_MULTIVERSION
 LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign, double centre) {
   const double total =
@@ -49,7 +50,8 @@ LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign
   return total > smallest_sum ? LogisticSums{total, slope} : LogisticSums{smallest_sum, smallest_sum};
 }
 
-/// log(m / (feasible - m)) below the least finite log-weight, the logistic sum over both populations is m or more.
+/// log(m / (feasible - m)) below the least finite log-weight, the logistic sum over both
+/// populations is m or more.
 double least_centre(const std::vector<double>& before, const std::vector<double>& after) {
   double least = 0.0;
   double feasible = 0.0;
@@ -63,8 +65,8 @@ double least_centre(const std::vector<double>& before, const std::vector<double>
   return least - std::max(portable_math::log(m / (feasible - m)), 0.0);
 }
 
-/// Solution of the equation of the bridge: the centre of the logistic functions, which sum up to the same in both
-/// populations there.
+/// Solution of the equation of the bridge: the centre of the logistic functions, which sum up to
+/// the same in both populations there.
 struct Bridge {
   double centre;
   double log_size_ratio;  ///< log(m / n); the log-ratio of the evidences is the centre plus this
@@ -122,8 +124,7 @@ double grouped_variance(ConstDoubles values, std::span<const Index> groups) {
                      : infinity;
 }
 
-void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, std::span<const Index> parents,
-                         double step) {
+void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, Index chains, double step) {
   const double largest = std::max(*std::max_element(before.begin(), before.end()),
                                   *std::max_element(after.begin(), after.end()));
   log_weigh(before, step, largest, log_weights_before_);
@@ -136,10 +137,8 @@ void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, std::span<cons
 
   if (sums_.influence.empty()) {  // each draw from the prior is a chain
     sums_.influence.emplace_back(before.size(), 0.0);
-    sums_.parents.emplace_back();
   }
-  sums_.influence.emplace_back(parents.size(), 0.0);
-  sums_.parents.emplace_back(parents.begin(), parents.end());
+  sums_.influence.emplace_back(static_cast<std::size_t>(chains), 0.0);
   const auto add_influence = [&](const std::vector<double>& log_weights, double sign,
                                  std::vector<double>& influence) {
     const double mean = 1.0 / static_cast<double>(log_weights.size());
@@ -152,13 +151,13 @@ void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, std::span<cons
   add_influence(log_weights_after_, -1.0, sums_.influence.back());
 }
 
-double BridgeEvidence::variance_up_to(std::size_t last) const {
+double BridgeEvidence::variance_up_to(std::size_t last, const Genealogy& genealogy) const {
   std::vector<Index> group(sums_.influence[last].size());  // of each chain: its ancestor in stage `first`
   std::iota(group.begin(), group.end(), Index{0});
   std::size_t first = last;
   for (std::vector<Index> earlier = group; first > 0; --first) {
     for (Index& chain : earlier) {
-      chain = sums_.parents[first][static_cast<std::size_t>(chain)];
+      chain = genealogy.parents[first - 1][static_cast<std::size_t>(chain)];
     }
     const double groups = effective_groups(earlier);
     if (groups <= 1.0 || (groups < fewest_groups && first < last)) {
@@ -175,7 +174,7 @@ double BridgeEvidence::variance_up_to(std::size_t last) const {
     for (std::size_t stage = first + 1; stage < last; ++stage) {
       std::vector<Index> of_stage;
       for (std::size_t c = 0; c < sums_.influence[stage].size(); ++c) {
-        of_stage.push_back(group_before[static_cast<std::size_t>(sums_.parents[stage][c])]);
+        of_stage.push_back(group_before[static_cast<std::size_t>(genealogy.parents[stage - 1][c])]);
         earlier_sums[static_cast<std::size_t>(of_stage.back())] += sums_.influence[stage][c];
       }
       group_before = std::move(of_stage);
@@ -187,10 +186,10 @@ double BridgeEvidence::variance_up_to(std::size_t last) const {
   return variance;
 }
 
-double BridgeEvidence::standard_error() const {
+double BridgeEvidence::standard_error(const Genealogy& genealogy) const {
   double variance = 0.0;
   for (std::size_t stage = 0; stage < sums_.influence.size(); ++stage) {
-    variance += variance_up_to(stage);
+    variance += variance_up_to(stage, genealogy);
   }
   return std::sqrt(std::max(variance, sums_.least_variance));
 }

@@ -5,31 +5,36 @@
 #include <utility>
 #include <vector>
 
-#include "tmcmc/types.hpp"
+#include "tmcmc/genealogy.hpp"
 
 namespace tmcmc {
 
-/// What BridgeEvidence has summed up so far; each vector has one entry a population, the prior being the first.
+/// What BridgeEvidence has summed up so far; each vector has one entry a population, the prior
+/// being the first.
 struct BridgeSums {
-  double log_evidence = 0.0;    ///< at the last beta
-  double least_variance = 0.0;  ///< of independent samples
-  std::vector<std::vector<double>>
-      influence;  ///< of each chain on the sum of the logarithms; empty before a step
-  std::vector<std::vector<Index>> parents;  ///< of each chain, in the population before; none for the prior
+  /// At the last beta.
+  double log_evidence = 0.0;
+  /// Of independent samples.
+  double least_variance = 0.0;
+  /// Of each chain on the sum of the logarithms; empty before a step.
+  std::vector<std::vector<double>> influence;
 };
 
-/// The ratio Z_{t+1} / Z_t of the tempered evidences from the populations on both sides of a step (Bennett 1976; Meng
-/// and Wong 1996): the root r of
+/// The ratio Z_{t+1} / Z_t of the tempered evidences from the populations on both sides of a step
+/// (Bennett 1976; Meng and Wong 1996): the root r of
 ///
-///     mean_t[ w / (s w + (1-s) r) ] = mean_{t+1}[ r / (s w + (1-s) r) ],   w = L^step,  s = n_{t+1} / (n_t + n_{t+1}),
+///     mean_t[ w / (s w + (1-s) r) ] = mean_{t+1}[ r / (s w + (1-s) r) ],
+///     w = L^step,  s = n_{t+1} / (n_t + n_{t+1}),
 ///
-/// solved in log(r), where both sides are sums of logistic functions and nothing overflows. It uses no further evaluation, and unlike the mean weight of population t alone it also hears of the regions that
-/// population t+1 has found. The standard error adds up the influence of each chain on the sum of the logarithms, and
-/// counts chains with a common ancestor as one: those of each stage are grouped by their ancestors in the earliest stage from
-/// which fewest_groups are left in effect, the stage before at the least, and the covariances with the stages in between
-/// are added (Olsson and Douc 2019, with a lag that follows the genealogy). It is at least that of independent samples, the
-/// sum of 1/S - 1/n_t - 1/n_{t+1} with S = n_t mean_t[s w / (s w + (1-s) r)] (Bennett 1976), which is large where the
-/// populations hardly overlap. What no chain has seen is not in it.
+/// solved in log(r), where both sides are sums of logistic functions and nothing overflows. It uses
+/// no further evaluation, and unlike the mean weight of population t alone it also uses regions
+/// first reached by population t+1. The standard error adds up the influence of each chain on the
+/// sum of the logarithms, and counts chains with a common ancestor as one: those of each stage are
+/// grouped by their ancestors in the earliest stage from which fewest_groups are left in effect,
+/// the stage before at the least, and the covariances with the stages in between are added (Olsson
+/// and Douc 2019, with a lag that follows the genealogy). It is at least that of independent
+/// samples, the sum of 1/S - 1/n_t - 1/n_{t+1} with S = n_t mean_t[s w / (s w + (1-s) r)] (Bennett
+/// 1976), which is large where the populations hardly overlap. What no chain has seen is not in it.
 class BridgeEvidence {
  public:
   BridgeEvidence() = default;
@@ -38,35 +43,40 @@ class BridgeEvidence {
 
   /// Adds a step. Sample i of a population belongs to chain i modulo the number of chains.
   /// \param before,after  log-likelihoods of the populations on both sides
-  /// \param parents  chain in `before` from whose states each chain in `after` started
+  /// \param chains  of `after`
   /// \param step  dbeta, not negative
-  void add(ConstDoubles before, ConstDoubles after, std::span<const Index> parents, double step);
+  void add(ConstDoubles before, ConstDoubles after, Index chains, double step);
 
-  /// Sum of the logarithms of the ratios added so far: log Z at the last beta, of a normalised prior.
+  /// Sum of the logarithms of the ratios added so far: log Z at the last beta, of a normalised
+  /// prior.
   [[nodiscard]] double log_evidence() const { return sums_.log_evidence; }
 
-  /// 0 before the first step. Where all chains of a stage started from one chain, they are taken one by one. Infinity for
-  /// a single chain.
-  [[nodiscard]] double standard_error() const;
+  /// 0 before the first step. Where all chains of a stage started from one chain, they are taken
+  /// one by one. Infinity for a single chain.
+  /// \param genealogy  of the last population; one entry for each step that was added
+  [[nodiscard]] double standard_error(const Genealogy& genealogy) const;
 
   /// What a further BridgeEvidence can go on from.
   [[nodiscard]] const BridgeSums& sums() const { return sums_; }
 
  private:
-  /// Variance of what the chains of a stage add, and twice its covariance with what those before have added.
-  [[nodiscard]] double variance_up_to(std::size_t stage) const;
+  /// Variance of what the chains of a stage add, and twice its covariance with what those before
+  /// have added.
+  [[nodiscard]] double variance_up_to(std::size_t stage, const Genealogy& genealogy) const;
 
   BridgeSums sums_;
   std::vector<double> log_weights_before_;  // work space
   std::vector<double> log_weights_after_;
 };
 
-/// Sum over groups g of (sum of the values in g)^2, times G / (G - 1) with G = n^2 / sum_g n_g^2 the effective number of
-/// groups: the variance of a sum of n values of mean zero, independent between groups. Infinity for a single group.
+/// Sum over groups g of (sum of the values in g)^2, times G / (G - 1) with G = n^2 / sum_g n_g^2
+/// the effective number of groups: the variance of a sum of n values of mean zero, independent
+/// between groups. Infinity for a single group.
 /// \param groups  group of each value, from 0
 [[nodiscard]] double grouped_variance(ConstDoubles values, std::span<const Index> groups);
 
-/// The least effective number of groups from which a variance is estimated, unless there are no more groups than that.
+/// The least effective number of groups from which a variance is estimated, unless there are no
+/// more groups than that.
 constexpr double fewest_groups = 6.0;
 
 /// The effective number of groups n^2 / sum_g n_g^2.

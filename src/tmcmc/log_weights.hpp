@@ -1,7 +1,7 @@
 /// \file
-/// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), from log-likelihoods; always shifted by
-/// the largest, so that a constant added to the log-likelihood changes nothing but the log-mean.
-/// Sums run over blocks of a fixed size; `threads` changes no result.
+/// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), from log-likelihoods; always
+/// shifted by the largest, so that a constant added to the log-likelihood changes nothing but the
+/// log-mean. Sums run over blocks of a fixed size; `threads` changes no result.
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@ namespace tmcmc {
 
 /// Divisor of the variance of the weights in Eq. 6.
 enum class Deviation {
-  population,  ///< N; then N_eff = N / (1 + CoV^2) exactly
-  sample       ///< N - 1, as the published scripts
+  /// N; then N_eff = N / (1 + CoV^2) exactly.
+  population,
+  /// N - 1, as the published scripts.
+  sample
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Deviation>) {
   return {"population", "sample"};
@@ -24,7 +26,8 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<De
 /// Which samples a criterion counts.
 enum class Counted {
   all,
-  feasible  ///< those whose log-likelihood is not minus infinity
+  /// Those whose log-likelihood is not minus infinity.
+  feasible
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Counted>) {
   return {"all", "feasible"};
@@ -33,8 +36,8 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Co
 /// Number of log-likelihoods that are not minus infinity.
 [[nodiscard]] Index count_feasible(ConstDoubles log_likelihood);
 
-/// Effective sample size N_eff = (sum w)^2 / sum w^2 (Eqs. 7-8; Kish 1965, Kong 1992); 0 if no sample is
-/// feasible.
+/// Effective sample size N_eff = (sum w)^2 / sum w^2 (Eqs. 7-8; Kish 1965, Kong 1992); 0 if no
+/// sample is feasible.
 /// \param step  dbeta > 0
 [[nodiscard]] double effective_sample_size(ConstDoubles log_likelihood, double step);
 
@@ -44,10 +47,11 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Co
                                               Deviation deviation = Deviation::population,
                                               Counted counted = Counted::all);
 
-/// Both of the above for a search over many steps; each call evaluates the weights once and stores none.
+/// Both of the above for a search over many steps; each call evaluates the weights once and stores
+/// none.
 class WeightStatistics {
  public:
-  /// \param log_likelihood  stays referred to
+  /// \param log_likelihood  non-owning view; it must outlive this
   explicit WeightStatistics(ConstDoubles log_likelihood, int threads = 1);
 
   /// Number of log-likelihoods that are not minus infinity.
@@ -69,14 +73,16 @@ class WeightStatistics {
   double largest_;
 };
 
-/// log( (1/N) sum w ) over all samples: the increment of the log-evidence (Ching and Chen 2007); minus
-/// infinity if no sample is feasible.
+/// log( (1/N) sum w ) over all samples: the increment of the log-evidence (Ching and Chen 2007);
+/// minus infinity if no sample is feasible.
 [[nodiscard]] double log_mean_weight(ConstDoubles log_likelihood, double step);
 
 /// Sums of the weights of a step.
 struct WeightSums {
-  double sum;       ///< of the weights relative to the largest
-  double log_mean;  ///< of the weights themselves, see log_mean_weight
+  /// Of the weights relative to the largest.
+  double sum;
+  /// Of the weights themselves, see log_mean_weight.
+  double log_mean;
 };
 
 /// Fills the weights relative to the largest.

@@ -16,22 +16,24 @@ struct ResampleMove {
 
   /// Metropolis steps of each chain and stage; the least number with mixing_correlation.
   Index steps = 3;
-  /// If positive, a stage goes on after `steps` steps until the correlation between the states of the chains and their
-  /// starts is at most this in every parameter, or max_steps are done. 0: `steps` it is.
+  /// If positive, a stage goes on after `steps` steps until the correlation between the states of
+  /// the chains and their starts is at most this in every parameter, or max_steps are done. 0:
+  /// `steps` it is.
   double mixing_correlation = 0.0;
   /// Most steps of a stage that goes on.
   Index max_steps = 1000;
 };
 
-/// The paper's wording: N times a chain is picked with probability w_i and its current state moved by one step; each
-/// updated state is kept. Biased at any N: the probability that a chain is picked k times or more is not proportional
-/// to its weight, so that short chains, which have moved little, count too much.
+/// The paper's wording: N times a chain is picked with probability w_i and its current state moved
+/// by one step; each updated state is kept. Biased at any N: the probability that a chain is picked
+/// k times or more is not proportional to its weight, so that short chains, which have moved
+/// little, count too much.
 struct GrowingChains {
   static constexpr std::string_view name = "growing-chains";
 };
 
-/// Resampling to M starts, a chain of N/M - 1 steps from each, every state kept, the start included (Dau and Chopin
-/// 2022): long chains, and no evaluation thrown away.
+/// Resampling to M starts, a chain of N/M - 1 steps from each, every state kept, the start included
+/// (Dau and Chopin 2022): long chains, and no evaluation thrown away.
 struct WasteFree {
   static constexpr std::string_view name = "waste-free";
 

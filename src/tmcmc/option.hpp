@@ -1,9 +1,11 @@
 /// \file
-/// What is known of one option of the sampler: its name, the values that it takes, and what it is for.
+/// What is known of one option of the sampler: its name, the values that it takes, and what it is
+/// for.
 ///
-/// The headers that declare options hold a function `visit_options`, which calls a visitor with the description of each
-/// option and a pointer to its value. The pointer is null where the option has no meaning, such as the number of chains
-/// of waste-free under another move. option_table.hpp makes text of all that.
+/// The headers that declare options hold a function `visit_options`, which calls a visitor with the
+/// description of each option and a pointer to its value. The pointer is null where the option has
+/// no meaning, such as the number of chains of waste-free under another move. option_table.hpp
+/// makes text of all that.
 #pragma once
 
 #include <string_view>
@@ -12,11 +14,16 @@ namespace tmcmc {
 
 /// The numbers that an option takes; for options with names instead, all of them.
 struct OptionRange {
-  double least = 0.0;        ///< the smallest number
-  double most = 0.0;         ///< the largest number
-  bool above_least = false;  ///< whether `least` itself is excluded
-  bool below_most = false;   ///< whether `most` itself is excluded
-  bool whole = false;        ///< whether only whole numbers are taken
+  /// The smallest number.
+  double least = 0.0;
+  /// The largest number.
+  double most = 0.0;
+  /// Whether `least` itself is excluded.
+  bool above_least = false;
+  /// Whether `most` itself is excluded.
+  bool below_most = false;
+  /// Whether only whole numbers are taken.
+  bool whole = false;
 
   /// Whether a number is in the range; NaN never is.
   [[nodiscard]] constexpr bool admits(double x) const {
@@ -39,20 +46,30 @@ constexpr OptionRange named() {
 
 /// Where options are listed together.
 enum class OptionGroup {
-  paper,             ///< the paper's sampler and the readings of it
-  beyond_the_paper,  ///< better samplers
-  computation        ///< how a run is carried out, and what the programs set themselves
+  /// The paper's sampler and the readings of it.
+  paper,
+  /// Better samplers.
+  beyond_the_paper,
+  /// How a run is carried out, and what the programs set themselves.
+  computation
 };
 
 /// Description of one option.
 struct OptionInfo {
-  std::string_view name;               ///< with underscores: --move-steps is move_steps
-  OptionGroup group;                   ///< where it is listed
-  OptionRange range;                   ///< of its values
-  std::string_view help;               ///< one line
-  std::string_view needs_option = {};  ///< the option that gives it a meaning; empty: it always has one
-  std::string_view needs_value = {};   ///< the value which that option must have; empty: any but the default
-  bool changes_samples = true;         ///< whether the samples of a run depend on it
+  /// With underscores: --move-steps is move_steps.
+  std::string_view name;
+  /// Where it is listed.
+  OptionGroup group;
+  /// Of its values.
+  OptionRange range;
+  /// One line.
+  std::string_view help;
+  /// The option that gives it a meaning; empty: it always has one.
+  std::string_view needs_option = {};
+  /// The value which that option must have; empty: any but the default.
+  std::string_view needs_value = {};
+  /// Whether the samples of a run depend on it.
+  bool changes_samples = true;
 };
 
 /// Pointer to a member of an alternative; null for a null pointer.

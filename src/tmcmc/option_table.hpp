@@ -13,16 +13,20 @@ namespace tmcmc {
 
 /// An option with what its text can be.
 struct OptionText : OptionInfo {
-  std::vector<std::string> values;  ///< names of its values; empty for a number
-  std::string expected;             ///< completes "expected ..."
-  std::string preset;               ///< the default
+  /// Names of its values; empty for a number.
+  std::vector<std::string> values;
+  /// Completes "expected ...".
+  std::string expected;
+  /// The default.
+  std::string preset;
 };
 
-/// All options of a run, in the order in which they can be set: one that gives others a meaning comes before them.
+/// All options of a run, in the order in which they can be set: one that gives others a meaning
+/// comes before them.
 [[nodiscard]] const std::vector<OptionText>& option_table();
 
-/// The value of an option, in digits that read back as the same number; nothing where it has no meaning under the
-/// others.
+/// The value of an option, in digits that read back as the same number; nothing where it has no
+/// meaning under the others.
 /// \throws errors::InvalidValue if there is no option of this name.
 [[nodiscard]] std::optional<std::string> option_value(const Options& options, std::string_view name);
 
@@ -30,9 +34,10 @@ struct OptionText : OptionInfo {
 /// \throws errors::InvalidValue if there is no option of this name.
 [[nodiscard]] std::optional<std::string> normalised_option(std::string_view name, std::string_view value);
 
-/// Sets an option. Another alternative of a variant, such as another move, begins with its defaults.
-/// \throws errors::InvalidValue for a value that the option does not take, for an option that has no meaning under the
-///         others, and if there is no option of this name.
+/// Sets an option. Another alternative of a variant, such as another move, begins with its
+/// defaults.
+/// \throws errors::InvalidValue for a value that the option does not take, for an option that has
+///         no meaning under the others, and if there is no option of this name.
 void set_option(Options& options, std::string_view name, std::string_view value);
 
 }  // namespace tmcmc

@@ -11,9 +11,9 @@
 
 namespace tmcmc {
 
-/// All that a run depends on besides problem and StreamKey. The defaults are the paper's sampler (N = 1000, CoV = 1,
-/// three steps of scale 0.2) with the population standard deviation; recommended_options() samples better for the same
-/// cost.
+/// All that a run depends on besides problem and StreamKey. The defaults are the paper's sampler (N
+/// = 1000, CoV = 1, three steps of scale 0.2) with the population standard deviation;
+/// recommended_options() samples better for the same cost.
 struct Options {
   /// N.
   Index samples = 1000;
@@ -29,37 +29,40 @@ struct Options {
   Proposal proposal;
   /// m of Eq. 5.
   Centre centre = Centre::weighted_mean;
-  /// Each half of the chains (by the parity of their chain before the resampling) gets a kernel that was fitted to the
-  /// other half, so that no chain is moved by proposals that it has shaped itself. In many dimensions (20 and more) that
-  /// takes away most of the bias of the log-evidence; in few it costs a little precision. Not for growing chains.
+  /// Each half of the chains (by the parity of their chain before the resampling) gets a kernel
+  /// that was fitted to the other half, so that no chain is moved by proposals that it has shaped
+  /// itself. In many dimensions (20 and more) that takes away most of the bias of the log-evidence;
+  /// in few it costs a little precision. Not for growing chains.
   bool cross_fit = false;
-  /// Log-likelihoods at or below this count as infeasible where feasible samples are counted (StageRecord::feasible, and
-  /// the check that the first population has any); for models that use a penalty in place of minus infinity.
+  /// Log-likelihoods at or below this count as infeasible where feasible samples are counted
+  /// (StageRecord::feasible, and the check that the first population has any); for models that use
+  /// a penalty in place of minus infinity.
   double infeasible_level = -std::numeric_limits<double>::infinity();
   /// A run that needs more stages ends with StopReason::stage_limit.
   Index max_stages = 1000;
   /// A smaller step of beta that does not reach 1 ends the run.
   double minimum_step = 1e-15;
-  /// Most log-likelihoods of a run; 0: no limit. The chains of the last stage go on until it is used up. Before it,
-  /// waste-free shortens its chains where more stages are expected than `samples` of them would fit, so that `samples`
-  /// is the size of the first population and an upper bound for the others. A run whose budget does not hold one step of
-  /// each chain ends with StopReason::budget. Not for growing chains.
+  /// Most log-likelihoods of a run; 0: no limit. The chains of the last stage go on until it is
+  /// used up. Before it, waste-free shortens its chains where more stages are expected than
+  /// `samples` of them would fit, so that `samples` is the size of the first population and an
+  /// upper bound for the others. A run whose budget does not hold one step of each chain ends with
+  /// StopReason::budget. Not for growing chains.
   Index evaluation_budget = 0;
-  /// Bridge estimate of the log-evidence with its error, effective sample sizes and warnings (Result::evidence and
-  /// Result::diagnostics).
+  /// Bridge estimate of the log-evidence with its error, effective sample sizes and warnings
+  /// (Result::evidence and Result::diagnostics).
   bool diagnose = true;
   /// Threads over the rows of a population. Results do not depend on them.
   int threads = 1;
   /// Most rows that a call of the log-likelihood gets; 0: as many as are a thread's share.
   Index batch_rows = 2048;
 
-  /// \throws errors::InvalidValue naming the option, its value and what was expected, for a value outside its range and
-  ///         for options that are incompatible.
+  /// \throws errors::InvalidValue naming the option, its value and what was expected, for a value
+  ///         outside its range and for options that are incompatible.
   void validate() const;
 };
 
-/// Calls visit(OptionInfo, pointer to the value) for each option of a run; the pointer is null where an option has no
-/// meaning under the others.
+/// Calls visit(OptionInfo, pointer to the value) for each option of a run; the pointer is null
+/// where an option has no meaning under the others.
 /// \param options  Options or const Options
 template <class AnyOptions, class Visit>
 void visit_options(AnyOptions& options, Visit&& visit) {
@@ -106,14 +109,15 @@ void visit_options(AnyOptions& options, Visit&& visit) {
         &options.batch_rows);
 }
 
-/// The options that we recommend: the paper's N_eff = N/2 (of the feasible samples) with better moves: waste-free with 10
-/// chains, systematic resampling, half of the proposals random walks of scale 2.38/sqrt(d) and half independent, in
-/// random subsets of unbounded coordinates. Found by experiments/cost_accuracy on the friction benchmark and checked by
-/// experiments/calibration and benchmark_problems. Posteriors of several separate modes want more chains: each mode keeps
-/// only the mass of the chains that started in it.
-/// \param evaluations  budget of log-likelihoods, at least 500 and 26 a chain. A 13th of it is the first population; no
-///                     later one is larger but the last, which gets what is left; more stages get smaller populations
-///                     (Options::evaluation_budget)
+/// The options that we recommend: the paper's N_eff = N/2 (of the feasible samples) with better
+/// moves: waste-free with 10 chains, systematic resampling, half of the proposals random walks of
+/// scale 2.38/sqrt(d) and half independent, in random subsets of unbounded coordinates. Found by
+/// experiments/cost_accuracy on the friction benchmark and checked by experiments/calibration and
+/// benchmark_problems. Posteriors of several separate modes want more chains: each mode keeps only
+/// the mass of the chains that started in it.
+/// \param evaluations  budget of log-likelihoods, at least 500 and 26 a chain. A 13th of it is the
+///                     first population; no later one is larger but the last, which gets what is
+///                     left; more stages get smaller populations (Options::evaluation_budget)
 /// \param chains       WasteFree::chains
 /// \throws errors::InvalidValue for a smaller budget.
 [[nodiscard]] Options recommended_options(Index evaluations = 31000, Index chains = 10);

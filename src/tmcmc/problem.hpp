@@ -9,8 +9,10 @@ namespace tmcmc {
 
 /// What is sampled: the posterior proportional to likelihood times prior.
 struct Problem {
-  LogLikelihood log_likelihood;  ///< of the whole population, a row a point
-  Prior prior;                   ///< normalised
+  /// Of the whole population, a row a point.
+  LogLikelihood log_likelihood;
+  /// Normalised.
+  Prior prior;
 };
 
 }  // namespace tmcmc

@@ -52,26 +52,18 @@ void require_points(const State& state, const Prior& prior, const Options& optio
 void require_descent(const Progress& progress, Index first_chains) {
   const auto stages = progress.stages.size();
   const Genealogy& genealogy = progress.state.genealogy;
-  const BridgeSums& sums = progress.bridge.sums();
-  const std::size_t populations = stages == 0 ? 0 : stages + 1;
-  require_size(genealogy.ancestors.size(), stages, "state.genealogy.ancestors");
-  require_size(sums.influence.size(), populations, "bridge.influence");
-  require_size(sums.parents.size(), populations, "bridge.parents");
-  for (std::size_t t = 0; t < populations; ++t) {
-    const std::size_t chains = sums.influence[t].size();
-    require_size(sums.parents[t].size(), t == 0 ? 0 : chains, entry("bridge.parents", t));
-    if (t + 1 < populations) {
-      require_size(genealogy.ancestors[t].size(), static_cast<std::size_t>(genealogy.chains),
-                   entry("state.genealogy.ancestors", t));
-      require_below(genealogy.ancestors[t], chains, entry("state.genealogy.ancestors", t));
-      require_below(sums.parents[t + 1], chains, entry("bridge.parents", t + 1));
-    }
+  const auto& influence = progress.bridge.sums().influence;
+  require_size(genealogy.parents.size(), stages, "state.genealogy.parents");
+  require_size(influence.size(), stages == 0 ? 0 : stages + 1, "bridge.influence");
+  if (stages == 0) {
+    return;
   }
-  if (populations > 0) {
-    require_size(sums.influence.front().size(), static_cast<std::size_t>(first_chains),
-                 "bridge.influence[0]");
-    require_size(sums.influence.back().size(), static_cast<std::size_t>(genealogy.chains),
-                 entry("bridge.influence", stages));
+  require_size(influence.front().size(), static_cast<std::size_t>(first_chains), "bridge.influence[0]");
+  require_size(influence.back().size(), static_cast<std::size_t>(genealogy.chains),
+               entry("bridge.influence", stages));
+  for (std::size_t t = 0; t < stages; ++t) {
+    require_size(genealogy.parents[t].size(), influence[t + 1].size(), entry("state.genealogy.parents", t));
+    require_below(genealogy.parents[t], influence[t].size(), entry("state.genealogy.parents", t));
   }
 }
 

@@ -13,13 +13,16 @@ namespace tmcmc {
 
 /// A run after some of its stages. `resume` goes on from here.
 struct Progress {
-  State state;                      ///< population at the last beta
-  std::vector<StageRecord> stages;  ///< so far
-  BridgeEvidence bridge;            ///< empty without Options::diagnose
+  /// Population at the last beta.
+  State state;
+  /// So far.
+  std::vector<StageRecord> stages;
+  /// Empty without Options::diagnose.
+  BridgeEvidence bridge;
 };
 
-/// Checks what resume relies on: sizes that go together, indices within them, points in the support of the prior, log-likelihoods that
-/// are none of NaN and plus infinity, beta in [0, 1].
+/// Checks what resume relies on: sizes that go together, indices within them, points in the support
+/// of the prior, log-likelihoods that are none of NaN and plus infinity, beta in [0, 1].
 /// \throws errors::InvalidValue naming the field, what it is and what was expected.
 void require_valid(const Progress& progress, const Prior& prior, const Options& options);
 

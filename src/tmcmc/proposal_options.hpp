@@ -14,8 +14,10 @@ namespace tmcmc {
 
 /// The m in Eq. 5.
 enum class Centre {
-  weighted_mean,  ///< Ching and Chen 2007
-  plain_mean      ///< as Eq. 5 is printed
+  /// Ching and Chen 2007.
+  weighted_mean,
+  /// As Eq. 5 is printed.
+  plain_mean
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Centre>) {
   return {"weighted-mean", "plain-mean"};
@@ -25,29 +27,30 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Ce
 enum class Coordinates {
   /// The parameters themselves; a proposal can fall outside the support of the prior.
   natural,
-  /// u = log((x - lower) / (upper - x)) where the prior's support has two bounds, log(x - lower) or -log(upper - x) where
-  /// it has one, x itself where it has none; the acceptance ratio carries the Jacobian, and no proposal falls outside.
+  /// u = log((x - lower) / (upper - x)) where the prior's support has two bounds, log(x - lower) or
+  /// -log(upper - x) where it has one, x itself where it has none; the acceptance ratio carries the
+  /// Jacobian, and no proposal falls outside.
   unbounded
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Coordinates>) {
   return {"natural", "unbounded"};
 }
 
-/// A proposal that leaves the tempered posterior invariant; one outside the support of the prior is rejected. The defaults are the
-/// paper's random walk.
+/// A proposal that leaves the tempered posterior invariant; one outside the support of the prior is
+/// rejected. The defaults are the paper's random walk.
 struct MetropolisProposal {
   static constexpr std::string_view name = "reject";
 
   Coordinates coordinates = Coordinates::natural;
   /// A proposal changes a random set of (whitened) coordinates: detail::MetropolisKernel.
   bool random_subsets = false;
-  /// Share of the proposals that are drawn from the normal distribution fitted to the population instead of around the
-  /// present state: detail::MetropolisKernel.
+  /// Share of the proposals that are drawn from the normal distribution fitted to the population
+  /// instead of around the present state: detail::MetropolisKernel.
   double independent_fraction = 0.0;
 };
 
-/// A random walk in all parameters; what falls outside the support of the prior is drawn again until it is inside, without the
-/// correction of the acceptance ratio (published scripts).
+/// A random walk in all parameters; what falls outside the support of the prior is drawn again
+/// until it is inside, without the correction of the acceptance ratio (published scripts).
 struct RedrawnWalk {
   static constexpr std::string_view name = "redraw";
 
@@ -65,21 +68,23 @@ struct FixedScale {
   double scale = 0.2;
 };
 
-/// 2.38 / sqrt(d), d the number of coordinates that a proposal changes (Roberts, Gelman and Gilks 1997).
+/// 2.38 / sqrt(d), d the number of coordinates that a proposal changes (Roberts, Gelman and Gilks
+/// 1997).
 struct DimensionScale {
   static constexpr std::string_view name = "dimension";
 };
 
-/// Starts as DimensionScale; after step k of a stage its logarithm grows by (acceptance rate of the random walks -
-/// acceptance) / sqrt(k), and the next stage goes on from there (after Betz, Papaioannou and Straub 2016, who adapt
-/// after groups of chains). Not for growing chains.
+/// Starts as DimensionScale; after step k of a stage its logarithm grows by (acceptance rate of the
+/// random walks - acceptance) / sqrt(k), and the next stage goes on from there (after Betz,
+/// Papaioannou and Straub 2016, who adapt after groups of chains). Not for growing chains.
 struct TargetAcceptance {
   static constexpr std::string_view name = "target-acceptance";
 
   double acceptance = 0.3;
 };
 
-/// 1/9 + 8/9 of the acceptance rate of the random walks of the stage before (Minson, Simons and Beck 2013); first 1.
+/// 1/9 + 8/9 of the acceptance rate of the random walks of the stage before (Minson, Simons and
+/// Beck 2013); first 1.
 struct AcceptanceLinked {
   static constexpr std::string_view name = "acceptance-linked";
 };

@@ -100,8 +100,8 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
     }
     progress.stages.push_back(stage.advance(tempering, state, next));
     if (options.diagnose) {
-      progress.bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood),
-                          next.genealogy.ancestors.back(), progress.stages.back().step);
+      progress.bridge.add(as_span(state.log_likelihood), as_span(next.log_likelihood), next.genealogy.chains,
+                          progress.stages.back().step);
     }
     std::swap(state, next);
     if (observer) {
@@ -111,7 +111,8 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
   result.final = std::move(state);
   result.stages = std::move(progress.stages);
   if (options.diagnose) {
-    result.evidence = {progress.bridge.log_evidence(), progress.bridge.standard_error()};
+    result.evidence = {progress.bridge.log_evidence(),
+                       progress.bridge.standard_error(result.final.genealogy)};
     result.diagnostics = diagnose(result, options, problem.prior.names());
   }
   return result;

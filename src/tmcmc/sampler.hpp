@@ -1,6 +1,7 @@
 /// \file
-/// Transitional Markov Chain Monte Carlo (Ching and Chen 2007; Lye and Marino 2023, Section 2). One sampler:
-/// the criterion, the moves and every other difference between texts are values in Options.
+/// Transitional Markov Chain Monte Carlo (Ching and Chen 2007; Lye and Marino 2023, Section 2). One
+/// sampler: the criterion, the moves and every other difference between texts are values in
+/// Options.
 #pragma once
 
 #include <functional>
@@ -22,16 +23,17 @@ using StepRule = std::function<TemperingStep(const State&)>;
 /// The sampler: draws from the prior, and stages until beta is 1.
 /// \param observer  sees the draws from the prior and the population after each stage
 /// \param rule  chooses the steps; without it, options.criterion does
-/// \throws errors::InvalidValue for invalid options; SamplingError if a criterion cannot be met or the likelihood fails;
-///         InfeasiblePriorError if no draw from the prior is feasible.
+/// \throws errors::InvalidValue for invalid options; SamplingError if a criterion cannot be met or
+///         the likelihood fails; InfeasiblePriorError if no draw from the prior is feasible.
 [[nodiscard]] Result run(const Problem& problem, const Options& options, const StreamKey& key,
                          const Observer& observer = {}, const StepRule& rule = {});
 
-/// Goes on from what an observer of the same run saw after any stage, to the same result bit for bit as if it had never
-/// been stopped. `run` is this from the draws from the prior on.
+/// Goes on from what an observer of the same run saw after any stage, to the same result bit for
+/// bit as if it had never been stopped. `run` is this from the draws from the prior on.
 /// \param key  the run's; threads, batch_rows and max_stages may be others than before
 /// \param observer  sees what comes after `from`
-/// \throws errors::InvalidValue for a progress that cannot be of this problem and these options; as run.
+/// \throws errors::InvalidValue for a progress that cannot be of this problem and these options; as
+///         run.
 [[nodiscard]] Result resume(const Problem& problem, const Options& options, const StreamKey& key,
                             Progress from, const Observer& observer = {}, const StepRule& rule = {});
 
@@ -41,8 +43,10 @@ using StepRule = std::function<TemperingStep(const State&)>;
 
 /// What a stage makes of a state.
 struct NextStage {
-  State state;         ///< at the next beta
-  StageRecord record;  ///< what the stage did
+  /// At the next beta.
+  State state;
+  /// What the stage did.
+  StageRecord record;
 };
 
 /// One stage as a pure function: weights of the step, resampling, fitted proposals and moves.

@@ -1,7 +1,8 @@
 /// \file
 /// Choice of the tempering step: the coefficient-of-variation rule of TMCMC (Eq. 6) and the
-/// effective-sample-size rule of TMCMC-II (Eq. 9), each solved as it is written. With the population standard
-/// deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the same equation.
+/// effective-sample-size rule of TMCMC-II (Eq. 9), each solved as it is written. With the
+/// population standard deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the
+/// same equation.
 #pragma once
 
 #include <string_view>
@@ -65,27 +66,39 @@ void visit_criterion_options(AnyCriterion& criterion, Visit&& visit) {
 
 /// How the search for a step ended.
 enum class TemperingStatus {
-  final_step,   ///< the remaining step already meets the criterion
-  solved,       ///< root found
-  zero_step,    ///< only a step of 0 meets the criterion (N_eff = N), or none of 1e-300 and more
-  unreachable,  ///< no positive step meets it: too few samples are feasible
-  infeasible    ///< every log-likelihood is minus infinity
+  /// The remaining step already meets the criterion.
+  final_step,
+  /// Root found.
+  solved,
+  /// Only a step of 0 meets the criterion (N_eff = N), or none of 1e-300 and more.
+  zero_step,
+  /// No positive step meets it: too few samples are feasible.
+  unreachable,
+  /// Every log-likelihood is minus infinity.
+  infeasible
 };
 
 /// A step of beta with what the search found on the way.
 struct TemperingStep {
-  double step = 0.0;                                 ///< dbeta
-  TemperingStatus status = TemperingStatus::solved;  ///< how the search ended
-  double effective_sample_size = 0.0;                ///< at the step; 0 where no step was found
-  double coefficient_of_variation = 0.0;  ///< at the step, with the criterion's deviation and count
-  double bracket_low = 0.0;               ///< final bracket of the root
-  double bracket_high = 0.0;              ///< the larger end; both 0 where there was no search
-  int evaluations = 0;                    ///< evaluations of all weights
+  /// dbeta.
+  double step = 0.0;
+  /// How the search ended.
+  TemperingStatus status = TemperingStatus::solved;
+  /// At the step; 0 where no step was found.
+  double effective_sample_size = 0.0;
+  /// At the step, with the criterion's deviation and count.
+  double coefficient_of_variation = 0.0;
+  /// Final bracket of the root.
+  double bracket_low = 0.0;
+  /// The larger end; both 0 where there was no search.
+  double bracket_high = 0.0;
+  /// Evaluations of all weights.
+  int evaluations = 0;
 };
 
-/// The largest step in (0, remaining] that keeps the criterion: `remaining` itself if it does, else the root,
-/// bracketed from the spread of the log-likelihoods and solved in log(step) by Algorithm 748 (Alfeld, Potra
-/// and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
+/// The largest step in (0, remaining] that keeps the criterion: `remaining` itself if it does, else
+/// the root, bracketed from the spread of the log-likelihoods and solved in log(step) by Algorithm
+/// 748 (Alfeld, Potra and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
 /// \param log_likelihood  free of NaN and plus infinity
 /// \param remaining  1 - beta, positive
 /// \param threads  the result does not depend on it

@@ -21,9 +21,10 @@ using Index = Eigen::Index;
 /// One row a sample, one column a parameter.
 using Population = Eigen::MatrixXd;
 
-/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point that the
-/// model excludes; NaN, plus infinity and values that are not written are errors. It has to give a row the same value whatever rows stand
-/// beside it, and with more than one thread it is called at the same time from each.
+/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point
+/// that the model excludes; NaN, plus infinity and values that are not written are errors. A row's
+/// value must not depend on the other rows of the batch. With more than one thread the function is
+/// called from several at the same time.
 using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                          Eigen::Ref<Eigen::VectorXd> log_likelihood)>;
 
@@ -36,13 +37,13 @@ class SamplingError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// No draw from the prior is feasible: prior and model do not go together.
+/// No draw from the prior is feasible: prior and model are incompatible.
 class InfeasiblePriorError : public SamplingError {
  public:
   using SamplingError::SamplingError;
 };
 
-/// The entries of a vector, which stays referred to.
+/// Non-owning view of the entries; v must outlive it.
 [[nodiscard]] inline ConstDoubles as_span(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }

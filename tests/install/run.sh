@@ -11,7 +11,7 @@ quietly "$cmake" --install "$build" --prefix "$work/first"
 mv "$work/first" "$work/prefix"  # a package that names its prefix would break
 prefix=$work/prefix
 foreign=$(find "$prefix" -type f | sed "s|^$prefix/||" |
-  grep -vE '^(include/(tmcmc|pbox|friction|portable_math|errors)/(detail/)?[a-z_]+\.hpp|lib(/[^/]*)?/lib(tmcmc|pbox|friction)\.a|lib(/[^/]*)?/cmake/tmcmc_companion/[a-z_-]+\.cmake|share/doc/tmcmc_companion/LICENSE)$' || true)
+  grep -vE '^(include/(tmcmc|pbox|friction|portable_math|errors|names)/(detail/)?[a-z_]+\.hpp|lib(/[^/]*)?/lib(tmcmc|pbox|friction)\.a|lib(/[^/]*)?/cmake/tmcmc_companion/[a-z_-]+\.cmake|share/doc/tmcmc_companion/LICENSE)$' || true)
 [ -z "$foreign" ] || fail "installed, but neither library, header, package file nor licence: $foreign"
 cmp -s "$source/LICENSE" "$prefix/share/doc/tmcmc_companion/LICENSE" || fail 'no LICENSE'
 if grep -rlFe "$source" -e "$build" -e "$work" --include='*.cmake' "$prefix"; then fail 'package files name this machine'; fi

@@ -79,7 +79,7 @@ inline void check_same_bits(const tmcmc::Result& a, const tmcmc::Result& b) {
   CHECK(a.final.evaluations == b.final.evaluations);
   CHECK(a.final.proposal_scale == b.final.proposal_scale);
   CHECK(a.final.genealogy.chains == b.final.genealogy.chains);
-  CHECK(a.final.genealogy.ancestors == b.final.genealogy.ancestors);
+  CHECK(a.final.genealogy.parents == b.final.genealogy.parents);
   REQUIRE(a.stages.size() == b.stages.size());
   for (std::size_t s = 0; s < a.stages.size(); ++s) {
     CHECK(numbers(a.stages[s]) == numbers(b.stages[s]));

@@ -29,6 +29,20 @@ using tmcmc::Result;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// A bridge together with the genealogy that belongs to it.
+struct Bridge {
+  void add(tmcmc::ConstDoubles before, tmcmc::ConstDoubles after, std::vector<Index> parents, double step) {
+    genealogy.chains = static_cast<Index>(parents.size());
+    evidence.add(before, after, genealogy.chains, step);
+    genealogy.parents.push_back(std::move(parents));
+  }
+  [[nodiscard]] double log_evidence() const { return evidence.log_evidence(); }
+  [[nodiscard]] double standard_error() const { return evidence.standard_error(genealogy); }
+
+  BridgeEvidence evidence;
+  tmcmc::Genealogy genealogy;
+};
+
 std::vector<Index> own_parents(std::size_t n) {
   std::vector<Index> parents(n);
   std::iota(parents.begin(), parents.end(), Index{0});
@@ -92,7 +106,7 @@ TEST_CASE("the bridge between exponential populations is right, and so is its st
     std::vector<double> errors;
     std::vector<double> own;
     for (int repetition = 0; repetition < 400; ++repetition) {
-      BridgeEvidence bridge;
+      Bridge bridge;
       CHECK(bridge.log_evidence() == 0.0);
       CHECK(bridge.standard_error() == 0.0);
       std::vector<double> before;
@@ -142,11 +156,11 @@ TEST_CASE("chains of equal states and relatives count as one in the standard err
         family[c * copies + k] = static_cast<Index>(c);
       }
     }
-    BridgeEvidence by_chain;
+    Bridge by_chain;
     by_chain.add(before, chained, own_parents(distinct), 1.0);
-    BridgeEvidence by_family;
+    Bridge by_family;
     by_family.add(before, families, family, 1.0);
-    BridgeEvidence unrelated;
+    Bridge unrelated;
     unrelated.add(before, families, own_parents(distinct * copies), 1.0);
     errors.push_back(by_chain.log_evidence() - std::log(0.5));
     of_chains.push_back(by_chain.standard_error());
@@ -163,19 +177,19 @@ TEST_CASE("the bridge at its edges", "[tmcmc][evidence]") {
   const std::vector<double> before{-3.0, -infinity, -1.0, -infinity, -0.5, -0.2};
   const std::vector<double> after{-0.5, -0.2, -0.4};
   SECTION("a step of 0 adds nothing") {
-    BridgeEvidence bridge;
+    Bridge bridge;
     bridge.add(before, after, own_parents(3), 0.0);
     CHECK(bridge.log_evidence() == 0.0);
     CHECK_THAT(bridge.standard_error(), WithinAbs(0.0, 1e-7));  // the root of a rounded 0
   }
   SECTION("equal log-likelihoods give step times their value") {
-    BridgeEvidence bridge;
+    Bridge bridge;
     bridge.add(std::vector<double>(7, -30.0), std::vector<double>(4, -30.0), own_parents(4), 0.25);
     CHECK_THAT(bridge.log_evidence(), WithinRel(-7.5, 1e-14));
     CHECK_THAT(bridge.standard_error(), WithinAbs(0.0, 1e-7));
   }
   SECTION("the root meets the equation of the bridge") {
-    BridgeEvidence bridge;
+    Bridge bridge;
     bridge.add(before, after, own_parents(3), 0.8);
     const double r = std::exp(bridge.log_evidence());
     const double s = 1.0 / 3.0;
@@ -192,7 +206,7 @@ TEST_CASE("the bridge at its edges", "[tmcmc][evidence]") {
   SECTION("populations without overlap: between both, with a standard error that says so") {
     for (const double gap : {50.0, 800.0, 1e5}) {
       CAPTURE(gap);
-      BridgeEvidence bridge;
+      Bridge bridge;
       bridge.add(std::vector<double>{-gap, -gap - 1.0}, std::vector<double>{0.0, -1.0}, own_parents(2), 1.0);
       CHECK(bridge.log_evidence() < -1.0);
       CHECK(bridge.log_evidence() > -gap);
@@ -200,7 +214,7 @@ TEST_CASE("the bridge at its edges", "[tmcmc][evidence]") {
     }
   }
   SECTION("a single chain has no standard error") {
-    BridgeEvidence bridge;
+    Bridge bridge;
     bridge.add(before, after, std::vector<Index>{0}, 0.5);
     CHECK(bridge.standard_error() == infinity);
     CHECK(std::isfinite(bridge.log_evidence()));

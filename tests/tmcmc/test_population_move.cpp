@@ -166,7 +166,7 @@ TEST_CASE("cross-fitting: the proposals of each half are shaped by the other hal
     const Index chains = to.genealogy.chains;
     std::vector<double> steps[2];
     for (Index c = 0; c < chains; ++c) {
-      const Index row = to.genealogy.ancestors.back()[static_cast<std::size_t>(c)];
+      const Index row = to.genealogy.parents.back()[static_cast<std::size_t>(c)];
       const Index after = waste_free ? c + chains : c;
       steps[row % 2].push_back(to.points(after, 0) - from.points(row, 0));
     }
@@ -228,11 +228,11 @@ TEST_CASE("waste-free in a run: N rows, M (N/M - 1) evaluations a stage", "[tmcm
         CHECK(record.evaluations == 30 * 19);
         CHECK(record.move_steps == 19);
         CHECK(state.genealogy.chains == 30);
-        REQUIRE(state.genealogy.ancestors.size() == static_cast<std::size_t>(record.stage));
+        REQUIRE(state.genealogy.parents.size() == static_cast<std::size_t>(record.stage));
         Index same_chain = 0;
         for (Index c = 0; c < 30; ++c) {
           // Starts are rows of the population before, of the chain that the genealogy names.
-          const Index parent = state.genealogy.ancestors.back()[static_cast<std::size_t>(c)];
+          const Index parent = state.genealogy.parents.back()[static_cast<std::size_t>(c)];
           bool found = false;
           for (Index row = parent; row < 600; row += founders) {
             found = found || before.row(row) == state.points.row(c);
@@ -262,7 +262,7 @@ TEST_CASE("every chain of waste-free gets its share of the next starts", "[tmcmc
   for (std::size_t stage = 1; stage < 4; ++stage) {
     std::vector<Index> expected(10);
     std::iota(expected.begin(), expected.end(), Index{0});
-    CHECK(result.final.genealogy.ancestors[stage] == expected);
+    CHECK(result.final.genealogy.parents[stage] == expected);
   }
   CHECK(result.stages.back().distinct_ancestors == 10);
 }

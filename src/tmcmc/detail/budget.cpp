@@ -9,10 +9,12 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Growth of beta that is assumed after the first stage, for want of an earlier temperature to compare with.
+/// Growth of beta that is assumed after the first stage, for want of an earlier temperature to
+/// compare with.
 constexpr double first_growth = 2.0;
 
-/// Stages that follow one which goes from `beta` to `next`, if log(beta) goes on growing by as much as in this one.
+/// Stages that follow one which goes from `beta` to `next`, if log(beta) goes on growing by as much
+/// as in this one.
 double stages_after(double beta, double next) {
   const double growth = portable_math::log(beta > 0.0 ? next / beta : first_growth);
   return std::max(std::ceil(-portable_math::log(next) / std::max(growth, 1e-3)), 1.0);

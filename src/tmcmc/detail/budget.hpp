@@ -13,12 +13,14 @@ namespace tmcmc::detail {
 /// Metropolis steps of each chain in a stage.
 struct StageSteps {
   Index least = 0;
-  Index most = 0;  ///< more than `least` where the chains go on until they have mixed
+  /// More than `least` where the chains go on until they have mixed.
+  Index most = 0;
 };
 
-/// Steps of the stage from `from` to the temperature `next`: what the options say, or in the last stage as many as the
-/// budget holds. Before the last stage, chains of waste-free share the budget with the stages that are expected to follow,
-/// so that the number of stages does not decide whether beta = 1 is reached.
+/// Steps of the stage from `from` to the temperature `next`: what the options say, or in the last
+/// stage as many as the budget holds. Before the last stage, chains of waste-free share the budget
+/// with the stages that are expected to follow, so that the number of stages does not decide
+/// whether beta = 1 is reached.
 [[nodiscard]] StageSteps steps_of(const Options& options, const State& from, double next);
 
 /// Whether the budget holds the stage from `from` to the temperature `next`.

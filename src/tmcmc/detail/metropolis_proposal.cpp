@@ -76,7 +76,8 @@ void enter_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
   }
 }
 
-/// x becomes u = log(x - bound), or u = -log(bound - x) for sign = -1; log_jacobian loses log(dx/du).
+/// x becomes u = log(x - bound), or u = -log(bound - x) for sign = -1; log_jacobian loses
+/// log(dx/du).
 PORTABLE_MATH_MULTIVERSION
 void leave_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -86,7 +87,8 @@ void leave_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
   }
 }
 
-/// The way back, from u; log_jacobian gains log(dx/du). What rounds to the bound or to infinity counts as outside.
+/// The way back, from u; log_jacobian gains log(dx/du). What rounds to the bound or to infinity
+/// counts as outside.
 PORTABLE_MATH_MULTIVERSION
 void enter_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -116,7 +118,8 @@ void enter_support(double low, double high, Lanes& x, Lanes& log_jacobian) {
   }
 }
 
-/// z becomes the step in units of the factor's columns, and log_correction what an independent draw adds.
+/// z becomes the step in units of the factor's columns, and log_correction what an independent draw
+/// adds.
 PORTABLE_MATH_MULTIVERSION
 void step_of(double unit, const Lanes& y, const Lanes& chosen, const Lanes& independent,
              const Lanes& walk_scale, Lanes& z, Lanes& log_correction) {

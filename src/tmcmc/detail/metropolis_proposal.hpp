@@ -12,34 +12,47 @@ namespace tmcmc::detail {
 
 /// What happens to a proposal outside the prior box.
 enum class Boundary {
-  reject,  ///< the chain stays
-  redraw   ///< RedrawnWalk
+  /// The chain stays.
+  reject,
+  /// RedrawnWalk.
+  redraw
 };
 
-/// The Metropolis kernel of one stage. With u the coordinates, L = factor_unit * factor the Cholesky factor of their
-/// covariance Sigma, and S a set of whitened coordinates, a proposal is
+/// The Metropolis kernel of one stage. With u the coordinates, L = factor_unit * factor the
+/// Cholesky factor of their covariance Sigma, and S a set of whitened coordinates, a proposal is
 ///
 ///     random walk:  u' = u + scale * factor * z_S
 ///     independent:  u' = u + L (z_S - y_S),  y = L^-1 (u - centre),
 ///
-/// z standard normal. The second draws the whitened coordinates in S anew from the normal distribution that was fitted to
-/// the population; its acceptance ratio is multiplied by exp((|z_S|^2 - |y_S|^2) / 2).
+/// z standard normal. The second draws the whitened coordinates in S anew from the normal
+/// distribution that was fitted to the population; its acceptance ratio is multiplied by
+/// exp((|z_S|^2 - |y_S|^2) / 2).
 struct MetropolisKernel {
-  Eigen::MatrixXd factor;    ///< lower triangular, d x d
-  double factor_unit = 1.0;  ///< factor times this is the Cholesky factor of the covariance itself
-  Eigen::VectorXd
-      centre;          ///< mean of the population in the same coordinates; needed if independent_fraction > 0
-  double beta = 1.0;   ///< temperature of the target, L^beta times the prior
-  double scale = 1.0;  ///< of a random walk
-  bool divide_by_sqrt_size = false;   ///< divides scale by the square root of the number of coordinates in S
-  double independent_fraction = 0.0;  ///< probability that a proposal is an independent one
-  /// S: one coordinate at random, and each other with a probability that is itself drawn from 1, 1/2, 1/4, ... down to
-  /// 1/d; else all.
+  /// Lower triangular, d x d.
+  Eigen::MatrixXd factor;
+  /// factor times this is the Cholesky factor of the covariance itself.
+  double factor_unit = 1.0;
+  /// Mean of the population in the same coordinates; needed if independent_fraction > 0.
+  Eigen::VectorXd centre;
+  /// Temperature of the target, L^beta times the prior.
+  double beta = 1.0;
+  /// Of a random walk.
+  double scale = 1.0;
+  /// Divides scale by the square root of the number of coordinates in S.
+  bool divide_by_sqrt_size = false;
+  /// Probability that a proposal is an independent one.
+  double independent_fraction = 0.0;
+  /// S: one coordinate at random, and each other with a probability that is itself drawn from 1,
+  /// 1/2, 1/4, ... down to 1/d; else all.
   bool random_subsets = false;
-  Coordinates coordinates = Coordinates::natural;  ///< see Coordinates
-  Boundary boundary = Boundary::reject;            ///< see Boundary; redraw with plain() alone
-  Index max_redraws = 100000;                      ///< see RedrawnWalk
-  std::uint32_t stage = 0;                         ///< enters the random stream
+  /// See Coordinates.
+  Coordinates coordinates = Coordinates::natural;
+  /// See Boundary; redraw with plain() alone.
+  Boundary boundary = Boundary::reject;
+  /// See RedrawnWalk.
+  Index max_redraws = 100000;
+  /// Enters the random stream.
+  std::uint32_t stage = 0;
 
   /// A random walk in all natural coordinates: what the paper has.
   [[nodiscard]] bool plain() const {
@@ -62,30 +75,33 @@ class ProposalLanes {
   ProposalLanes(const ProposalLanes&) = delete;
   ProposalLanes& operator=(const ProposalLanes&) = delete;
 
-  /// Draws what the proposals of `count` rows need; the log-uniforms of the acceptance too if log_uniforms is given.
+  /// Draws what the proposals of `count` rows need; the log-uniforms of the acceptance too if
+  /// log_uniforms is given.
   void draw(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel, const RowIds& rows,
             std::size_t count, Lanes* log_uniforms);
 
   /// Makes the proposals from the rows of `points`.
-  /// \param log_prior  Prior::log_kernel() of the rows of `points` by their number, NaN where it is still to be computed, and where
-  ///        it is kept; not used with a box
+  /// \param log_prior  Prior::log_kernel() of the rows of `points` by their number, NaN where it is
+  ///                   still to be computed, and where it is kept; not used with a box
   void propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
                const RowIds& rows, std::size_t count, Eigen::VectorXd& log_prior);
 
-  /// Marks the proposals where the prior has a density, adds the ratio of the prior densities to log_correction(), and returns
-  /// the number of those marked.
-  /// \throws SamplingError for a prior of the user's own that gives NaN, or no density where it has drawn
+  /// Marks the proposals where the prior has a density, adds the ratio of the prior densities to
+  /// log_correction(), and returns the number of those marked.
+  /// \throws SamplingError for a prior of the user's own that gives NaN, or no density where it has
+  ///         drawn
   std::size_t check(const Prior& prior, std::size_t count);
 
   /// Whether check() has found a prior density at the proposal of a chain.
   [[nodiscard]] bool inside(std::size_t lane) const { return inside_[lane] != 0.0; }
   /// Proposed parameter j, a lane a chain.
   [[nodiscard]] const Lanes& parameter(Index j) const { return x_[static_cast<std::size_t>(j)]; }
-  [[nodiscard]] const Lanes& independent() const { return independent_; }  ///< 1 for independent proposals
+  /// 1 for independent proposals.
+  [[nodiscard]] const Lanes& independent() const { return independent_; }
   /// Prior::log_kernel() of the proposals that check() has found inside; not with a box.
   [[nodiscard]] const Lanes& log_prior() const { return proposed_log_prior_; }
-  /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and the ratios of prior and proposal
-  /// densities.
+  /// Logarithm of what the ratio of the likelihoods has to be multiplied by: Jacobian and the
+  /// ratios of prior and proposal densities.
   [[nodiscard]] const Lanes& log_correction() const { return log_correction_; }
 
  private:

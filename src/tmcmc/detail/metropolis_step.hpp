@@ -11,12 +11,18 @@ namespace tmcmc::detail {
 
 /// What Metropolis steps did, summed over rows and steps.
 struct MoveCounts {
-  Index proposals = 0;       ///< proposals made, one a row and step; redrawn ones count once
-  Index accepted = 0;        ///< proposals accepted
-  Index walks = 0;           ///< proposals by a random walk, not independent ones
-  Index accepted_walks = 0;  ///< of `walks`
-  Index evaluations = 0;     ///< log-likelihoods asked for; proposals outside the prior's support need none
-  Index redraws = 0;         ///< proposals drawn again (Boundary::redraw)
+  /// Proposals made, one a row and step; redrawn ones count once.
+  Index proposals = 0;
+  /// Proposals accepted.
+  Index accepted = 0;
+  /// Proposals by a random walk, not independent ones.
+  Index walks = 0;
+  /// Of `walks`.
+  Index accepted_walks = 0;
+  /// Log-likelihoods asked for; proposals outside the prior's support need none.
+  Index evaluations = 0;
+  /// Proposals drawn again (Boundary::redraw).
+  Index redraws = 0;
 
   /// Adds field by field.
   MoveCounts& operator+=(const MoveCounts& other);
@@ -33,11 +39,13 @@ class Mover {
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
 
-  /// One Metropolis step of the chains that live in the given rows, in place: a proposal theta' of the kernel is accepted
-  /// with probability min(1, (L(theta') / L(theta))^beta c), c being the ratio of the prior densities and the
-  /// correction for coordinates and proposal densities. The draws depend on key, stage, row and `draw` alone.
+  /// One Metropolis step of the chains that live in the given rows, in place: a proposal theta' of
+  /// the kernel is accepted with probability min(1, (L(theta') / L(theta))^beta c), c being the
+  /// ratio of the prior densities and the correction for coordinates and proposal densities. The
+  /// draws depend on key, stage, row and `draw` alone.
   /// \param rows  rows to move, each at most once; empty: all
-  /// \throws SamplingError for a log-likelihood of NaN or plus infinity, or if max_redraws is exceeded.
+  /// \throws SamplingError for a log-likelihood of NaN or plus infinity, or if max_redraws is
+  ///         exceeded.
   MoveCounts step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,
                   Population& points, Eigen::VectorXd& log_likelihood);
 

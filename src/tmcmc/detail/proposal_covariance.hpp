@@ -19,10 +19,11 @@ namespace tmcmc::detail {
 [[nodiscard]] Eigen::VectorXd weighted_mean(const Population& points, ConstDoubles weights, double weight_sum,
                                             int threads = 1);
 
-/// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a zero
-/// column. Plain loops, since the order of Eigen's sums depends on the instruction set.
-/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding, which without pivoting is up to 1e-2
-///         of the variance behind a direction that is almost without one.
+/// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a
+/// zero column. Plain loops, since the order of Eigen's sums depends on the instruction set.
+/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding, which
+///         without pivoting is up to 1e-2 of the variance behind a direction that is almost without
+///         one.
 [[nodiscard]] Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance);
 
 }  // namespace tmcmc::detail

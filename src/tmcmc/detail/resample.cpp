@@ -23,7 +23,8 @@ Total total_of(ConstDoubles weights) {
   return total;
 }
 
-/// ancestors[k]: the sample at which the cumulative weight reaches threshold(k), which has to ascend with k.
+/// ancestors[k]: the sample at which the cumulative weight reaches threshold(k), which has to
+/// ascend with k.
 template <class Threshold>
 void invert(ConstDoubles weights, std::size_t last_positive, std::span<Index> ancestors,
             Threshold threshold) {

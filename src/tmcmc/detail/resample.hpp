@@ -10,9 +10,12 @@ namespace tmcmc::detail {
 
 /// Memory of resample(), to be reused from call to call.
 struct ResamplingWorkspace {
-  std::vector<double> partial_sums;  ///< of the weights
-  std::vector<double> residuals;     ///< of the expected numbers of copies
-  std::vector<Index> drawn;          ///< ancestors of the multinomial part
+  /// Of the weights.
+  std::vector<double> partial_sums;
+  /// Of the expected numbers of copies.
+  std::vector<double> residuals;
+  /// Ancestors of the multinomial part.
+  std::vector<Index> drawn;
 };
 
 /// As tmcmc::resample().

@@ -28,21 +28,14 @@ double linked_scale(const MoveCounts& counts, double scale) {
 
 void record_descent(const Options& options, std::span<const Index> ancestors, const State& from, State& to) {
   to.genealogy.chains = static_cast<Index>(ancestors.size());
-  to.genealogy.ancestors.clear();
-  if (!options.diagnose) {
-    return;
-  }
-  std::vector<Index> parents(ancestors.begin(), ancestors.end());
-  for (Index& parent : parents) {
-    parent %= from.genealogy.chains;
-  }
-  for (const auto& of_parents : from.genealogy.ancestors) {
-    auto& of_chains = to.genealogy.ancestors.emplace_back();
-    for (const Index parent : parents) {
-      of_chains.push_back(of_parents[static_cast<std::size_t>(parent)]);
+  to.genealogy.parents.clear();
+  if (options.diagnose) {
+    to.genealogy.parents = from.genealogy.parents;
+    std::vector<Index>& parents = to.genealogy.parents.emplace_back(ancestors.begin(), ancestors.end());
+    for (Index& parent : parents) {
+      parent %= from.genealogy.chains;
     }
   }
-  to.genealogy.ancestors.push_back(std::move(parents));
 }
 
 }  // namespace
@@ -71,9 +64,9 @@ WeightSums Stage::weigh(const State& from, double step) {
   return {static_cast<double>(from.points.rows()), 0.0};
 }
 
-/// The rows are resampled chain by chain, as they descend from one another: in the order of the steps, systematic
-/// resampling would step through the rows at the distance of a multiple of the number of chains and find the same few
-/// chains again and again.
+/// The rows are resampled chain by chain, as they descend from one another: in the order of the
+/// steps, systematic resampling would step through the rows at the distance of a multiple of the
+/// number of chains and find the same few chains again and again.
 void Stage::draw_starts(const State& from) {
   const Index chains = from.genealogy.chains;
   const Index steps = from.points.rows() / chains;
