@@ -12,7 +12,7 @@ namespace friction {
 namespace {
 
 constexpr Eigen::Index chunk = 64;
-using Lanes = std::array<double, chunk>;
+struct alignas(64) Lanes : std::array<double, chunk> {};
 
 /// Adds the squared phase residuals of one observation. Force ratios beyond the limit give values that the
 /// caller does not use; the square root is kept real for them. Two short loops in place of a long one: the processor
@@ -35,6 +35,33 @@ void add_squared_residuals(const ResponseConstants& c, double observed_deg, cons
         portable_math::polar_angle(imaginary_part[i], real_part[i]) * (180.0 / std::numbers::pi);
     const double residual = angle_residual_deg(observed_deg, phase);
     sum[i] += residual * residual;
+  }
+}
+
+/// What the values of a chunk of points have in common.
+struct Terms {
+  double constant;
+  double count;
+  double frequency_minimum;
+  double frequency_curvature;
+  double frequency_best_period;
+  double limit_force_ratio;
+  double infeasible_log_likelihood;
+};
+
+/// One column of the points each, their squared phase residuals, and where the values go.
+PORTABLE_MATH_MULTIVERSION
+void add_up(const Terms& t, std::size_t size, const Lanes& phi, const Lanes& misfit,
+            const double* natural_frequency, const double* sigma_phase, const double* sigma_ratio,
+            double* log_likelihood) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const double period_error = 1.0 / natural_frequency[i] - t.frequency_best_period;
+    const double frequency = t.frequency_minimum + t.frequency_curvature * period_error * period_error;
+    const double value =
+        t.constant - t.count * portable_math::log(sigma_phase[i] * sigma_ratio[i]) -
+        0.5 * (misfit[i] / (sigma_phase[i] * sigma_phase[i]) + frequency / (sigma_ratio[i] * sigma_ratio[i]));
+    const bool feasible = phi[i] >= 0.0 && phi[i] <= t.limit_force_ratio;
+    log_likelihood[i] = feasible ? value : t.infeasible_log_likelihood;
   }
 }
 
@@ -75,30 +102,28 @@ void Likelihood::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
     throw errors::InvalidValue("friction::Likelihood", "", "n x 4 points and n results");
   }
   const double count = static_cast<double>(constants_.size());
-  const double constant = -count * 1.8378770664093453;  // log(2 pi)
+  constexpr double log_two_pi = 1.8378770664093453;
+  const Terms terms{.constant = -count * log_two_pi,
+                    .count = count,
+                    .frequency_minimum = frequency_minimum_,
+                    .frequency_curvature = frequency_curvature_,
+                    .frequency_best_period = frequency_best_period_,
+                    .limit_force_ratio = limit_force_ratio_,
+                    .infeasible_log_likelihood = infeasible_log_likelihood_};
   const double to_ratio = 1.0 / driving_force_n_;
   for (Eigen::Index begin = 0; begin < points.rows(); begin += chunk) {
     const Eigen::Index size = std::min(chunk, points.rows() - begin);
+    const auto column = [&](Parameter parameter) { return points.col(parameter).data() + begin; };
     Lanes phi{};
     Lanes misfit{};
     for (Eigen::Index i = 0; i < size; ++i) {
-      phi[static_cast<std::size_t>(i)] = points(begin + i, friction_force) * to_ratio;
+      phi[static_cast<std::size_t>(i)] = column(friction_force)[i] * to_ratio;
     }
     for (std::size_t j = 0; j < constants_.size(); ++j) {
       add_squared_residuals(constants_[j], phase_deg_[j], phi, misfit);
     }
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const auto lane = static_cast<std::size_t>(i);
-      const double sigma_phase = points(begin + i, phase_noise);
-      const double sigma_ratio = points(begin + i, frequency_ratio_noise);
-      const double period_error = 1.0 / points(begin + i, natural_frequency) - frequency_best_period_;
-      const double frequency = frequency_minimum_ + frequency_curvature_ * period_error * period_error;
-      const double value =
-          constant - count * portable_math::log(sigma_phase * sigma_ratio) -
-          0.5 * (misfit[lane] / (sigma_phase * sigma_phase) + frequency / (sigma_ratio * sigma_ratio));
-      const bool feasible = phi[lane] >= 0.0 && phi[lane] <= limit_force_ratio_;
-      log_likelihood[begin + i] = feasible ? value : infeasible_log_likelihood_;
-    }
+    add_up(terms, static_cast<std::size_t>(size), phi, misfit, column(natural_frequency), column(phase_noise),
+           column(frequency_ratio_noise), log_likelihood.data() + begin);
   }
 }
 

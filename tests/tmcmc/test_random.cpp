@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "tmcmc/detail/random_rows.hpp"
 #include "tmcmc/random.hpp"
 #include "tmcmc/statistics.hpp"
 
@@ -80,6 +81,21 @@ TEST_CASE("counter and key are laid out as the header states", "[tmcmc][random]"
       r123::Philox4x64()({{0x03abcdef76543210U, 0xfedcba9876543210U, 0xfdb9753113579bdfU, 0x02468aceU}},
                          {{0x0123456789abcdefU, 0x89abcdeffedcba98U}});
   CHECK(random_words(key, id) == Words{words[0], words[1], words[2], words[3]});
+}
+
+TEST_CASE("the words of several rows are those of each row alone", "[tmcmc][random]") {
+  const StreamKey key{.seed = 5, .study = 2, .arm = 1, .run = 9};
+  DrawId id{.purpose = Purpose::move, .stage = 3, .row = 77, .draw = 4, .attempt = 1, .block = 6};
+  const std::vector<std::uint64_t> rows{0, 1, 64, 63, std::uint64_t{1} << 40U, 1};
+  constexpr std::size_t stride = 8;
+  std::vector<std::uint64_t> words(4 * stride, 0);
+  tmcmc::detail::random_words_of_rows(key, id, rows, words);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    id.row = rows[i];
+    CHECK(random_words(key, id) ==
+          Words{words[i], words[stride + i], words[2 * stride + i], words[3 * stride + i]});
+  }
+  CHECK(words[rows.size()] == 0);
 }
 
 TEST_CASE("streams that differ in one bit of one field, or in two, differ in every word", "[tmcmc][random]") {

@@ -6,27 +6,32 @@
 #include <limits>
 
 #include "portable_math/multiversion.hpp"
+#include "tmcmc/detail/random_rows.hpp"
 
 namespace tmcmc::detail {
 
 namespace {
 
-constexpr std::size_t lanes = ProposalLanes::lanes;
 using Lanes = ProposalLanes::Lanes;
-using WordLanes = std::array<std::uint64_t, lanes>;
+
+/// Lanes that a loop over `count` chains works on: whole vectors of any instruction set. What the others hold is not used.
+constexpr std::size_t in_vectors(std::size_t count) {
+  return (count + 7) / 8 * 8;
+}
 
 constexpr std::uint32_t choice_block = 1U << 24U;  // of the random words: beyond those of the normals
 
 PORTABLE_MATH_MULTIVERSION
-void fill_log_uniforms(const WordLanes& words, Lanes& result) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void fill_log_uniforms(const std::uint64_t* words, std::size_t count, Lanes& result) {
+  for (std::size_t i = 0; i < count; ++i) {
     result[i] = portable_math::log_positive(uniform_open(words[i]));
   }
 }
 
 PORTABLE_MATH_MULTIVERSION
-void normals(const WordLanes& radius_a, const WordLanes& radius_b, const WordLanes& angles, Lanes* z) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void normals(const std::uint64_t* radius_a, const std::uint64_t* radius_b, const std::uint64_t* angles,
+             std::size_t count, Lanes* z) {
+  for (std::size_t i = 0; i < count; ++i) {
     const NormalPair a = normal_pair(radius_a[i], angles[i] >> 32U);
     const NormalPair b = normal_pair(radius_b[i], angles[i]);
     z[0][i] = a.first;
@@ -37,16 +42,16 @@ void normals(const WordLanes& radius_a, const WordLanes& radius_b, const WordLan
 }
 
 PORTABLE_MATH_MULTIVERSION
-void add_scaled(double scale, const Lanes& z, Lanes& x) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void add_scaled(double scale, const Lanes& z, std::size_t count, Lanes& x) {
+  for (std::size_t i = 0; i < count; ++i) {
     x[i] += scale * z[i];
   }
 }
 
 /// inside[i] &= low <= x[i] <= high
 PORTABLE_MATH_MULTIVERSION
-void check_bounds(const Lanes& x, double low, double high, Lanes& inside) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void check_bounds(const Lanes& x, double low, double high, std::size_t count, Lanes& inside) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double above = x[i] >= low ? inside[i] : 0.0;
     inside[i] = x[i] <= high ? above : 0.0;
   }
@@ -54,8 +59,8 @@ void check_bounds(const Lanes& x, double low, double high, Lanes& inside) {
 
 /// x becomes u = log((x - low) / (high - x)); log_density loses log(dx/du) but for a constant.
 PORTABLE_MATH_MULTIVERSION
-void leave_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void leave_box(double low, double high, std::size_t count, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double below = portable_math::log(x[i] - low);
     const double above = portable_math::log(high - x[i]);
     log_jacobian[i] -= below + above;
@@ -65,8 +70,8 @@ void leave_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
 
 /// The way back, from u; log_jacobian gains log(dx/du). What rounds to a bound counts as outside.
 PORTABLE_MATH_MULTIVERSION
-void enter_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void enter_box(double low, double high, std::size_t count, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double e = portable_math::exp(x[i] > 0.0 ? -x[i] : x[i]);
     const double part = (high - low) * (e / (1.0 + e));
     const double value = x[i] > 0.0 ? high - part : low + part;
@@ -79,8 +84,8 @@ void enter_box(double low, double high, Lanes& x, Lanes& log_jacobian) {
 /// x becomes u = log(x - bound), or u = -log(bound - x) for sign = -1; log_jacobian loses
 /// log(dx/du).
 PORTABLE_MATH_MULTIVERSION
-void leave_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void leave_half_line(double bound, double sign, std::size_t count, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double log_distance = portable_math::log(sign * (x[i] - bound));
     log_jacobian[i] -= log_distance;
     x[i] = sign * log_distance;
@@ -90,8 +95,8 @@ void leave_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
 /// The way back, from u; log_jacobian gains log(dx/du). What rounds to the bound or to infinity
 /// counts as outside.
 PORTABLE_MATH_MULTIVERSION
-void enter_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void enter_half_line(double bound, double sign, std::size_t count, Lanes& x, Lanes& log_jacobian) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double value = bound + sign * portable_math::exp(sign * x[i]);
     const double distance = sign * (value - bound);
     const bool inside = distance > 0.0 && distance < std::numeric_limits<double>::infinity();
@@ -100,21 +105,21 @@ void enter_half_line(double bound, double sign, Lanes& x, Lanes& log_jacobian) {
   }
 }
 
-void leave_support(double low, double high, Lanes& x, Lanes& log_jacobian) {
+void leave_support(double low, double high, std::size_t count, Lanes& x, Lanes& log_jacobian) {
   if (std::isfinite(low) && std::isfinite(high)) {
-    leave_box(low, high, x, log_jacobian);
+    leave_box(low, high, count, x, log_jacobian);
   } else if (std::isfinite(low) || std::isfinite(high)) {
     const bool above = std::isfinite(low);
-    leave_half_line(above ? low : high, above ? 1.0 : -1.0, x, log_jacobian);
+    leave_half_line(above ? low : high, above ? 1.0 : -1.0, count, x, log_jacobian);
   }
 }
 
-void enter_support(double low, double high, Lanes& x, Lanes& log_jacobian) {
+void enter_support(double low, double high, std::size_t count, Lanes& x, Lanes& log_jacobian) {
   if (std::isfinite(low) && std::isfinite(high)) {
-    enter_box(low, high, x, log_jacobian);
+    enter_box(low, high, count, x, log_jacobian);
   } else if (std::isfinite(low) || std::isfinite(high)) {
     const bool above = std::isfinite(low);
-    enter_half_line(above ? low : high, above ? 1.0 : -1.0, x, log_jacobian);
+    enter_half_line(above ? low : high, above ? 1.0 : -1.0, count, x, log_jacobian);
   }
 }
 
@@ -122,8 +127,8 @@ void enter_support(double low, double high, Lanes& x, Lanes& log_jacobian) {
 /// adds.
 PORTABLE_MATH_MULTIVERSION
 void step_of(double unit, const Lanes& y, const Lanes& chosen, const Lanes& independent,
-             const Lanes& walk_scale, Lanes& z, Lanes& log_correction) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+             const Lanes& walk_scale, std::size_t count, Lanes& z, Lanes& log_correction) {
+  for (std::size_t i = 0; i < count; ++i) {
     const double white = y[i] / unit;
     const double part = chosen[i] * independent[i];
     log_correction[i] += part * (0.5 * (z[i] * z[i] - white * white));
@@ -134,8 +139,8 @@ void step_of(double unit, const Lanes& y, const Lanes& chosen, const Lanes& inde
 }
 
 PORTABLE_MATH_MULTIVERSION
-void scale_to(double factor, double centre, const Lanes& x, Lanes& y) {
-  for (std::size_t i = 0; i < lanes; ++i) {
+void scale_to(double factor, double centre, const Lanes& x, std::size_t count, Lanes& y) {
+  for (std::size_t i = 0; i < count; ++i) {
     y[i] = factor * (x[i] - centre);
   }
 }
@@ -158,17 +163,12 @@ void ProposalLanes::draw(const StreamKey& key, const DrawId& id, const Metropoli
   for (std::size_t group = 0; 4 * group < z_.size(); ++group) {
     DrawId place = id;
     place.block = static_cast<std::uint32_t>(group);
-    for (std::size_t i = 0; i < count; ++i) {
-      place.row = rows[i];
-      const Words w = random_words(key, place);
-      for (std::size_t word = 0; word < 4; ++word) {
-        words_[word][i] = w[word];
-      }
-    }
+    std::uint64_t* words = words_.front().data();
+    random_words_of_rows(key, place, {rows.data(), count}, {words, 4 * lanes});
     if (group == 0 && log_uniforms != nullptr) {
-      fill_log_uniforms(words_[0], *log_uniforms);
+      fill_log_uniforms(words, in_vectors(count), *log_uniforms);
     }
-    normals(words_[1], words_[2], words_[3], &z_[4 * group]);
+    normals(words + lanes, words + 2 * lanes, words + 3 * lanes, in_vectors(count), &z_[4 * group]);
   }
   if (!kernel.plain()) {
     draw_choices(key, id, kernel, rows, count);
@@ -212,22 +212,23 @@ void ProposalLanes::shift(const MetropolisKernel& kernel) {
   for (Index k = 0; k < d; ++k) {  // y = factor^-1 (u - centre)
     const auto column = static_cast<std::size_t>(k);
     if (kernel.independent_fraction > 0.0 && kernel.factor(k, k) > 0.0) {
-      scale_to(1.0, kernel.centre[k], x_[column], y_[column]);
+      scale_to(1.0, kernel.centre[k], x_[column], lanes, y_[column]);
       for (Index l = 0; l < k; ++l) {
-        add_scaled(-kernel.factor(k, l), y_[static_cast<std::size_t>(l)], y_[column]);
+        add_scaled(-kernel.factor(k, l), y_[static_cast<std::size_t>(l)], lanes, y_[column]);
       }
-      scale_to(1.0 / kernel.factor(k, k), 0.0, y_[column], y_[column]);
+      scale_to(1.0 / kernel.factor(k, k), 0.0, y_[column], lanes, y_[column]);
     } else {
       y_[column].fill(0.0);
     }
   }
   for (std::size_t k = 0; k < y_.size(); ++k) {
-    step_of(kernel.factor_unit, y_[k], chosen_[k], independent_, walk_scale_, z_[k], log_correction_);
+    step_of(kernel.factor_unit, y_[k], chosen_[k], independent_, walk_scale_, lanes, z_[k], log_correction_);
   }
 }
 
 void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
                             const RowIds& rows, std::size_t count, Eigen::VectorXd& log_prior) {
+  const std::size_t in_use = in_vectors(count);
   log_correction_.fill(0.0);
   for (Index j = 0; j < dimension_; ++j) {
     Lanes& x = x_[static_cast<std::size_t>(j)];
@@ -251,7 +252,8 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, 
   }
   if (kernel.coordinates == Coordinates::unbounded) {
     for (Index j = 0; j < dimension_; ++j) {
-      leave_support(prior.lower()[j], prior.upper()[j], x_[static_cast<std::size_t>(j)], log_correction_);
+      leave_support(prior.lower()[j], prior.upper()[j], in_use, x_[static_cast<std::size_t>(j)],
+                    log_correction_);
     }
   }
   double scale = kernel.scale;
@@ -264,10 +266,10 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, 
   for (Index j = 0; j < dimension_; ++j) {
     Lanes& x = x_[static_cast<std::size_t>(j)];
     for (Index k = 0; k <= j; ++k) {
-      add_scaled(scale * kernel.factor(j, k), z_[static_cast<std::size_t>(k)], x);
+      add_scaled(scale * kernel.factor(j, k), z_[static_cast<std::size_t>(k)], in_use, x);
     }
     if (kernel.coordinates == Coordinates::unbounded) {
-      enter_support(prior.lower()[j], prior.upper()[j], x, log_correction_);
+      enter_support(prior.lower()[j], prior.upper()[j], in_use, x, log_correction_);
     }
   }
 }
@@ -275,7 +277,8 @@ void ProposalLanes::propose(const MetropolisKernel& kernel, const Prior& prior, 
 std::size_t ProposalLanes::check(const Prior& prior, std::size_t count) {
   inside_.fill(1.0);
   for (Index j = 0; j < dimension_; ++j) {
-    check_bounds(x_[static_cast<std::size_t>(j)], prior.lower()[j], prior.upper()[j], inside_);
+    check_bounds(x_[static_cast<std::size_t>(j)], prior.lower()[j], prior.upper()[j], in_vectors(count),
+                 inside_);
   }
   if (!prior.is_box()) {
     add_prior_ratio(prior, count);

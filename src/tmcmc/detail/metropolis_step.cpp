@@ -1,7 +1,7 @@
 #include "tmcmc/detail/metropolis_step.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <limits>
 #include <sstream>
 
@@ -20,24 +20,121 @@ MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
 }
 
 struct Mover::Block {
-  Block(Index rows, Index dimension)
-      : candidates(rows, dimension),
-        candidate_log_likelihood(rows),
-        candidate_rows(static_cast<std::size_t>(rows)),
-        independent(static_cast<std::size_t>(rows)),
-        thresholds(static_cast<std::size_t>(rows)),
-        log_prior(static_cast<std::size_t>(rows)),
+  Block(Index most_rows, Index dimension)
+      : candidates(most_rows, dimension),
+        candidate_log_likelihood(most_rows),
+        candidate_rows(static_cast<std::size_t>(most_rows)),
+        independent(static_cast<std::size_t>(most_rows)),
+        thresholds(static_cast<std::size_t>(most_rows)),
+        log_prior(static_cast<std::size_t>(most_rows)),
+        rows(static_cast<std::size_t>(most_rows)),
+        log_uniforms(static_cast<std::size_t>(most_rows)),
+        accepted_numbers(static_cast<std::size_t>(most_rows)),
         proposals(dimension) {}
 
-  Population candidates;  // proposals inside the support, in the order of their rows
+  /// Adds the present proposals of the given lanes to the candidates.
+  void keep(std::span<const std::size_t> lanes, const ProposalLanes::RowIds& lane_rows,
+            const ProposalLanes::Lanes& lane_log_uniforms) {
+    for (Index j = 0; j < candidates.cols(); ++j) {
+      const ProposalLanes::Lanes& x = proposals.parameter(j);
+      double* to = candidates.col(j).data() + kept;
+      for (std::size_t k = 0; k < lanes.size(); ++k) {
+        to[k] = x[lanes[k]];
+      }
+    }
+    for (const std::size_t lane : lanes) {
+      const auto k = static_cast<std::size_t>(kept++);
+      candidate_rows[k] = static_cast<Index>(lane_rows[lane]);
+      independent[k] = proposals.independent()[lane];
+      thresholds[k] = lane_log_uniforms[lane] - proposals.log_correction()[lane];
+      log_prior[k] = proposals.log_prior()[lane];
+    }
+  }
+
+  /// One proposal for each of the first `row_count` rows. Those inside the support become candidates; the rows of the others
+  /// move to the front. Returns their number.
+  std::size_t propose(const MetropolisKernel& kernel, const Prior& prior, const StreamKey& key,
+                      const DrawId& id, std::size_t row_count, const Population& points,
+                      Eigen::VectorXd& log_prior_of_points, MoveCounts& counts);
+
+  /// Moves the candidates' rows to those that are accepted, and returns their numbers.
+  std::span<const Index> accept(double beta, Population& points, Eigen::VectorXd& log_likelihood,
+                                MoveCounts& counts);
+
+  Population candidates;  // proposals inside the support: the first `kept` rows
+  Index kept = 0;
   Eigen::VectorXd candidate_log_likelihood;
   std::vector<Index> candidate_rows;
   std::vector<double> independent;  // 1 for independent proposals
   std::vector<double>
       thresholds;  // log-uniform less the correction: least log-ratio of the likelihoods to accept
-  std::vector<double> log_prior;  // of the candidates
+  std::vector<double> log_prior;        // of the candidates
+  std::vector<std::uint64_t> rows;      // that have no proposal inside the support yet
+  std::vector<double> log_uniforms;     // of these rows
+  std::vector<Index> accepted_numbers;  // of the candidates
   ProposalLanes proposals;
 };
+
+std::size_t Mover::Block::propose(const MetropolisKernel& kernel, const Prior& prior, const StreamKey& key,
+                                  const DrawId& id, std::size_t row_count, const Population& points,
+                                  Eigen::VectorXd& log_prior_of_points, MoveCounts& counts) {
+  constexpr std::size_t at_once = ProposalLanes::lanes;
+  ProposalLanes::RowIds lane_rows{};
+  ProposalLanes::Lanes log_u{};
+  std::array<std::size_t, at_once> inside{};
+  std::size_t left = 0;
+  for (std::size_t first = 0; first < row_count; first += at_once) {
+    const std::size_t count = std::min(row_count - first, at_once);
+    std::copy_n(&rows[first], count, lane_rows.begin());
+    proposals.draw(key, id, kernel, lane_rows, count, id.attempt == 0 ? &log_u : nullptr);
+    if (id.attempt == 0) {
+      counts.walks += static_cast<Index>(
+          std::count(proposals.independent().begin(),
+                     proposals.independent().begin() + static_cast<std::ptrdiff_t>(count), 0.0));
+    } else {
+      std::copy_n(&log_uniforms[first], count, log_u.begin());
+    }
+    proposals.propose(kernel, prior, points, lane_rows, count, log_prior_of_points);
+    proposals.check(prior, count);
+    std::size_t inside_count = 0;
+    for (std::size_t i = 0; i < count; ++i) {  // no branches: which are inside cannot be predicted
+      inside[inside_count] = i;
+      rows[left] = lane_rows[i];  // never beyond first + i
+      log_uniforms[left] = log_u[i];
+      const bool is_inside = proposals.inside(i);
+      inside_count += is_inside ? 1 : 0;
+      left += is_inside ? 0 : 1;
+    }
+    keep({inside.data(), inside_count}, lane_rows, log_u);
+  }
+  return left;
+}
+
+std::span<const Index> Mover::Block::accept(double beta, Population& points, Eigen::VectorXd& log_likelihood,
+                                            MoveCounts& counts) {
+  std::size_t count = 0;
+  for (Index k = 0; k < kept; ++k) {
+    const Index row = candidate_rows[static_cast<std::size_t>(k)];
+    const double log_ratio = beta * (candidate_log_likelihood[k] - log_likelihood[row]);
+    accepted_numbers[count] = k;
+    count += thresholds[static_cast<std::size_t>(k)] <= log_ratio ? 1 : 0;
+  }
+  const std::span<const Index> accepted(accepted_numbers.data(), count);
+  for (Index j = 0; j < points.cols(); ++j) {
+    double* x = points.col(j).data();
+    const double* candidate = candidates.col(j).data();
+    for (const Index k : accepted) {
+      x[candidate_rows[static_cast<std::size_t>(k)]] = candidate[k];
+    }
+  }
+  for (const Index k : accepted) {
+    const Index row = candidate_rows[static_cast<std::size_t>(k)];
+    log_likelihood[row] = candidate_log_likelihood[k];
+    counts.accepted_walks += independent[static_cast<std::size_t>(k)] == 0.0 ? 1 : 0;
+  }
+  counts.accepted += static_cast<Index>(count);
+  return accepted;
+}
 
 Mover::Mover(const LogLikelihood& log_likelihood, const Prior& prior, const StreamKey& key, int threads,
              Index batch_rows)
@@ -94,117 +191,40 @@ void Mover::forget_moved_rows(const Index* rows, Index begin, Index end, const P
 MoveCounts Mover::step_block(const MetropolisKernel& kernel, const Index* rows, Index begin, Index end,
                              std::uint32_t draw, Population& points, Eigen::VectorXd& log_likelihood,
                              Block& block) {
-  const Index d = points.cols();
-  MoveCounts counts;
-  counts.proposals = end - begin;
   if (!prior_.is_box()) {
     forget_moved_rows(rows, begin, end, points);
   }
-  Index candidates = 0;
+  for (Index i = begin; i < end; ++i) {
+    block.rows[static_cast<std::size_t>(i - begin)] =
+        static_cast<std::uint64_t>(rows == nullptr ? i : rows[i]);
+  }
+  MoveCounts counts;
+  counts.proposals = end - begin;
+  block.kept = 0;
   DrawId id{.purpose = Purpose::move, .stage = kernel.stage, .draw = draw};
-  ProposalLanes::RowIds row_ids{};
-
-  ProposalLanes& proposals = block.proposals;
-  ProposalLanes::Lanes log_u{};
-  const auto propose = [&](std::size_t count,
-                           ProposalLanes::Lanes* log_uniforms) {  // returns the number inside the support
-    proposals.draw(key_, id, kernel, row_ids, count, log_uniforms);
-    proposals.propose(kernel, prior_, points, row_ids, count, log_prior_);
-    return proposals.check(prior_, count);
-  };
-  const auto keep = [&](std::size_t lane, double log_uniform) {
-    for (Index j = 0; j < d; ++j) {
-      block.candidates(candidates, j) = proposals.parameter(j)[lane];
+  auto left = block.propose(kernel, prior_, key_, id, static_cast<std::size_t>(end - begin), points,
+                            log_prior_, counts);
+  while (left > 0 && kernel.boundary == Boundary::redraw) {
+    if (static_cast<Index>(++id.attempt) > kernel.max_redraws) {
+      throw SamplingError("a proposal fell outside the support of the prior " +
+                          std::to_string(kernel.max_redraws) + " times in a row (max_redraws)");
     }
-    block.candidate_rows[static_cast<std::size_t>(candidates)] = static_cast<Index>(row_ids[lane]);
-    block.independent[static_cast<std::size_t>(candidates)] = proposals.independent()[lane];
-    block.thresholds[static_cast<std::size_t>(candidates)] = log_uniform - proposals.log_correction()[lane];
-    block.log_prior[static_cast<std::size_t>(candidates)] = proposals.log_prior()[lane];
-    ++candidates;
-  };
-  const auto keep_all = [&](std::size_t count) {
-    for (Index j = 0; j < d; ++j) {
-      std::copy_n(proposals.parameter(j).begin(), count, block.candidates.col(j).data() + candidates);
-    }
-    std::copy_n(row_ids.begin(), count, block.candidate_rows.begin() + candidates);
-    std::copy_n(proposals.independent().begin(), count, block.independent.begin() + candidates);
-    std::copy_n(proposals.log_prior().begin(), count, block.log_prior.begin() + candidates);
-    std::transform(log_u.begin(), log_u.begin() + static_cast<std::ptrdiff_t>(count),
-                   proposals.log_correction().begin(), block.thresholds.begin() + candidates, std::minus<>());
-    candidates += static_cast<Index>(count);
-  };
-  constexpr std::size_t at_once = ProposalLanes::lanes;
-  std::array<std::size_t, at_once> outside{};
-  for (Index first = begin; first < end; first += static_cast<Index>(at_once)) {
-    const auto count = static_cast<std::size_t>(std::min(end - first, static_cast<Index>(at_once)));
-    for (std::size_t i = 0; i < count; ++i) {
-      const Index position = first + static_cast<Index>(i);
-      row_ids[i] = static_cast<std::uint64_t>(rows == nullptr ? position : rows[position]);
-    }
-    id.attempt = 0;
-    const std::size_t inside_count = propose(count, &log_u);
-    counts.walks += static_cast<Index>(
-        std::count(proposals.independent().begin(),
-                   proposals.independent().begin() + static_cast<std::ptrdiff_t>(count), 0.0));
-    if (inside_count == count) {
-      keep_all(count);
-      continue;
-    }
-    std::size_t outside_count = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (proposals.inside(i)) {
-        keep(i, log_u[i]);
-      } else {
-        outside[outside_count++] = i;
-      }
-    }
-    if (kernel.boundary == Boundary::reject) {
-      continue;
-    }
-    while (outside_count > 0) {  // draw the rest again, packed to the front
-      if (static_cast<Index>(++id.attempt) > kernel.max_redraws) {
-        throw SamplingError("a proposal fell outside the support of the prior " +
-                            std::to_string(kernel.max_redraws) + " times in a row (max_redraws)");
-      }
-      for (std::size_t k = 0; k < outside_count; ++k) {
-        row_ids[k] = row_ids[outside[k]];
-        log_u[k] = log_u[outside[k]];
-      }
-      counts.redraws += static_cast<Index>(outside_count);
-      propose(outside_count, nullptr);
-      std::size_t still_outside = 0;
-      for (std::size_t k = 0; k < outside_count; ++k) {
-        if (proposals.inside(k)) {
-          keep(k, log_u[k]);
-        } else {
-          outside[still_outside++] = k;
-        }
-      }
-      outside_count = still_outside;
-    }
+    counts.redraws += static_cast<Index>(left);
+    left = block.propose(kernel, prior_, key_, id, left, points, log_prior_, counts);
   }
-
-  if (candidates == 0) {
-    return counts;
-  }
-  block.candidate_log_likelihood.head(candidates).setConstant(std::numeric_limits<double>::quiet_NaN());
-  log_likelihood_(block.candidates.topRows(candidates), block.candidate_log_likelihood.head(candidates));
-  counts.evaluations = candidates;
-  require_valid(block.candidates.topRows(candidates), block.candidate_log_likelihood.head(candidates));
-  for (Index k = 0; k < candidates; ++k) {
-    const Index row = block.candidate_rows[static_cast<std::size_t>(k)];
-    const double log_ratio = kernel.beta * (block.candidate_log_likelihood[k] - log_likelihood[row]);
-    if (block.thresholds[static_cast<std::size_t>(k)] <= log_ratio) {
-      for (Index j = 0; j < d; ++j) {
-        points(row, j) = block.candidates(k, j);
-      }
-      log_likelihood[row] = block.candidate_log_likelihood[k];
-      if (!prior_.is_box()) {
+  if (block.kept > 0) {
+    auto values = block.candidate_log_likelihood.head(block.kept);
+    values.setConstant(std::numeric_limits<double>::quiet_NaN());
+    log_likelihood_(block.candidates.topRows(block.kept), values);
+    counts.evaluations = block.kept;
+    require_valid(block.candidates.topRows(block.kept), values);
+    const auto accepted = block.accept(kernel.beta, points, log_likelihood, counts);
+    if (!prior_.is_box()) {
+      for (const Index k : accepted) {
+        const Index row = block.candidate_rows[static_cast<std::size_t>(k)];
         log_prior_[row] = block.log_prior[static_cast<std::size_t>(k)];
         known_points_.row(row) = points.row(row);
       }
-      ++counts.accepted;
-      counts.accepted_walks += block.independent[static_cast<std::size_t>(k)] == 0.0 ? 1 : 0;
     }
   }
   return counts;
