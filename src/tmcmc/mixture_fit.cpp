@@ -153,7 +153,6 @@ class Fit {
     white_.resize(block);
     pulled_.resize(block);
     distances_.resize(entries);
-    densities_.resize(entries);
     shares_.resize(entries);
     moments_.assign(static_cast<std::size_t>(components),
                     {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
@@ -164,9 +163,8 @@ class Fit {
     for (Index begin = 0; begin < n_; begin += block_rows) {
       const Index rows = std::min(block_rows, n_ - begin);
       const double* weights = data_.weights.data() + begin;
-      detail::component_densities(parts, d_, mixture.degrees_of_freedom, data_.points.data() + begin, n_,
-                                  rows, white_.data(), distances_.data(), densities_.data());
-      detail::log_sum(components, rows, densities_.data(), log_densities, shares_.data());
+      detail::mixture_density(parts, d_, mixture.degrees_of_freedom, data_.points.data() + begin, n_, rows,
+                              white_.data(), distances_.data(), log_densities, shares_.data());
       log_density_sum += product_sum(weights, log_densities, rows);
       for (Index k = 0; k < components; ++k) {
         Moments& moments = moments_[static_cast<std::size_t>(k)];
@@ -252,7 +250,7 @@ class Fit {
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
   std::vector<Moments> moments_;
-  std::vector<double> white_, pulled_, distances_, densities_, shares_;
+  std::vector<double> white_, pulled_, distances_, shares_;
 };
 
 /// The points of even or odd groups.

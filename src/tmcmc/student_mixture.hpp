@@ -62,17 +62,15 @@ struct Component {
 /// The components, with the constants of their densities.
 [[nodiscard]] std::vector<Component> components_of(const StudentMixture& mixture);
 
-/// Log of the weighted density of each component at up to mixture_rows points.
+/// Log-density of the mixture at up to mixture_rows points, with what a fit needs.
 /// \param points,stride  first coordinate of the first point; coordinate j stands j * stride further on
 /// \param white  work space, d x mixture_rows
-/// \param distances  K x mixture_rows: |L_k^-1 (z - m_k)|^2
-/// \param log_densities  K x mixture_rows
-void component_densities(const std::vector<Component>& components, Index d, int degrees_of_freedom,
-                         const double* points, Index stride, Index rows, double* white, double* distances,
-                         double* log_densities);
-
-/// Logarithm of the sum over K of the exponentials; where `shares` is given it gets each component's share of the sum.
-void log_sum(Index components, Index rows, const double* log_densities, double* result, double* shares);
+/// \param distances  K x mixture_rows, overwritten: |L_k^-1 (z - m_k)|^2
+/// \param log_density  of each point, overwritten
+/// \param shares  K x mixture_rows, overwritten: of each component in the density; all 0 where that is 0
+void mixture_density(const std::vector<Component>& components, Index d, int degrees_of_freedom,
+                     const double* points, Index stride, Index rows, double* white, double* distances,
+                     double* log_density, double* shares);
 
 }  // namespace detail
 

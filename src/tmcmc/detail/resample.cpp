@@ -1,7 +1,11 @@
 #include "tmcmc/detail/resample.hpp"
 
+#include <array>
 #include <cmath>
+#include <numeric>
 
+#include "portable_math/multiversion.hpp"
+#include "tmcmc/detail/random_rows.hpp"
 #include "tmcmc/parallel.hpp"
 
 namespace tmcmc::detail {
@@ -39,17 +43,35 @@ void invert(ConstDoubles weights, std::size_t last_positive, std::span<Index> an
   }
 }
 
+constexpr std::size_t lanes = 64;  // rows of four words that are worked on at a time
+
+PORTABLE_MATH_MULTIVERSION
+void exponentials(const std::array<std::uint64_t, 4 * lanes>& words,
+                  std::array<double, 4 * lanes>& spacings) {
+  for (std::size_t i = 0; i < 4 * lanes; ++i) {
+    spacings[i] = -portable_math::log_positive(uniform_open(words[i]));
+  }
+}
+
 /// Sorted uniforms are partial sums of exponential spacings.
 void multinomial(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
                  std::vector<double>& partial_sums, int threads) {
   const std::size_t n = ancestors.size();
   partial_sums.resize(n + 1);
-  static_assert(reduction_rows % 4 == 0, "a block starts with new words");
+  static_assert(reduction_rows % (4 * lanes) == 0, "a block starts with new words");
   for_each_block(static_cast<Index>(n + 1), reduction_rows, threads, [&](Index, Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); i += 4) {
-      const Words words = random_words(key, {.purpose = Purpose::resampling, .stage = stage, .row = i / 4});
-      for (std::size_t k = 0; k < 4 && i + k <= n; ++k) {
-        partial_sums[i + k] = -portable_math::log_positive(uniform_open(words[k]));
+    std::array<std::uint64_t, lanes> rows{};
+    std::array<std::uint64_t, 4 * lanes> words{};
+    std::array<double, 4 * lanes> spacings{};
+    for (auto first = static_cast<std::size_t>(begin); first < static_cast<std::size_t>(end);
+         first += 4 * lanes) {
+      const std::size_t count = std::min(static_cast<std::size_t>(end) - first, 4 * lanes);
+      std::iota(rows.begin(), rows.end(), first / 4);
+      random_words_of_rows(key, {.purpose = Purpose::resampling, .stage = stage},
+                           {rows.data(), (count + 3) / 4}, words);
+      exponentials(words, spacings);
+      for (std::size_t i = 0; i < count; ++i) {
+        partial_sums[first + i] = spacings[i % 4 * lanes + i / 4];
       }
     }
   });
