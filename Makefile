@@ -95,10 +95,10 @@ $(EXACT) &: $(TABLE1) $(PRIOR) $(STUDY)
 	  --runs-input $(GEN)/sampling_study_runs.csv --samplers-output $(GEN)/exact_posterior_samplers.csv \
 	  --samples-input $(GEN)/sampling_study_samples.csv --histogram-output $(GEN)/exact_posterior_histograms.csv
 
-FLOOR := $(addprefix $(GEN)/pbox_floor,.csv _pbox.csv _summary.csv)
+FLOOR := $(addprefix $(GEN)/pbox_floor,.csv _pbox.csv _summary.csv _growth.csv)
 $(FLOOR) &: $(TABLE1) $(PRIOR)
 	$(STEP) "$(FLOOR)" $(BIN)/pbox_floor --observations $(TABLE1) --quiet --output $(GEN)/pbox_floor.csv \
-	  --pbox-output $(GEN)/pbox_floor_pbox.csv --summary-output $(GEN)/pbox_floor_summary.csv
+	  --pbox-output $(GEN)/pbox_floor_pbox.csv --summary-output $(GEN)/pbox_floor_summary.csv --growth-output $(GEN)/pbox_floor_growth.csv
 
 # Replicated studies, the verdicts, the readings, other settings: Figures 9 to 11, 14. A study that was stopped goes on from its journal.
 $(GEN)/replicated_study.csv: $(TABLE1) $(PRIOR)
@@ -174,7 +174,7 @@ figures/fig8_model_validation.pdf: $(GEN)/model_validation.csv $(GEN)/model_vali
 figures/fig9_null_distributions.pdf: $(addprefix $(GEN)/fig9_null_distributions,.csv _printed.csv _pairs.csv)
 figures/fig10_iteration_tables.pdf: $(GEN)/fig9_null_distributions_counts.csv
 figures/fig11_readings.pdf: $(GEN)/readings.csv $(TABLE3)
-figures/fig12_cost_accuracy.pdf: $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_summary.csv $(TABLE3)
+figures/fig12_cost_accuracy.pdf: $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_growth.csv
 figures/fig13_calibration.pdf: $(GEN)/calibration_ranks.csv
 figures/fig14_forensics.pdf: $(GEN)/forensics_pairs.csv
 figures/fig15_prior_sensitivity.pdf: $(GEN)/prior_sensitivity_pbox.csv

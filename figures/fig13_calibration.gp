@@ -1,43 +1,53 @@
-# Simulation-based calibration: rank of the true parameter among posterior draws, over simulated data sets. Calibrated
-# samplers give flat histograms; peaks at the ends are posteriors that are too narrow.
+# Simulation-based calibration: rank of the true parameter among posterior draws, over simulated data sets. For each sampler the
+# distribution function of the ranks less that of a calibrated sampler, which is 0; the band holds such a function at all
+# 19 inner places with a probability of 99 % or more (Normal, Bonferroni: 3.47 standard deviations). A line that falls and then rises, or the other way, is a posterior of a wrong width.
 width = 17.4
-height = 8.8
+height = 6.2
 load 'figures/style.gp'
 
 ranks = data.'/calibration_ranks.csv'
 names = 'friction_force_n natural_frequency_hz phase_noise_deg frequency_ratio_noise'
 titles = '"Friction force" "Natural frequency" "Phase noise" "Frequency ratio noise"'
-own(sampler, name, what) = strcol('sampler') eq sampler && strcol('parameter') eq name ? column(what) : NaN
+colours = blue.' '.vermillion.' '.green.' '.purple
+# The samplers of the file, in their order; '_' stands for a blank.
+samplers = system(sprintf("awk -F, 'NR > 1 && !seen[$1]++ { gsub(/\"/, \"\", $1); gsub(/ /, \"_\", $1); print $1 }' %s", ranks))
+is(sampler, name) = strcol('parameter') eq name && system_name(strcol('sampler')) eq sampler
+system_name(s) = strstrt(s, ' ') ? s[1:strstrt(s, ' ') - 1].'_'.system_name(s[strstrt(s, ' ') + 1:]) : s
+plain(s) = strstrt(s, '_') ? s[1:strstrt(s, '_') - 1].' '.plain(s[strstrt(s, '_') + 1:]) : s
 
+panels = words(samplers)
+# One parameter's counts add up to the data sets.
+array data_sets_of[panels]
+do for [k = 1:panels] {
+  stats ranks using (is(word(samplers, k), word(names, 1)) ? column('count') : NaN) nooutput name 'total'
+  data_sets_of[k] = total_sum
+}
 set xrange [0:1]
-set yrange [40:175]
-set xtics ('0' 0, '' 0.25, '0.5' 0.5, '' 0.75, '1' 1)
-set ytics 40
-set boxwidth 0.05
-set key at screen 0.53, 0.99 center top maxrows 1 Left reverse samplen 2
-
+set samples 201
+set yrange [-0.048:0.048]
+set xtics 0.25 format '%g'
+set ytics 0.02
+set key at screen 0.53, 0.995 center top maxrows 1 Left reverse samplen 2.6 width -2.5 font ',7.5'
+set tmargin at screen 0.83
+set bmargin at screen 0.17
 set multiplot
-do for [row = 1:2] {
-  sampler = row == 1 ? 'published' : 'recommended'
-  colour = row == 1 ? vermillion : green
-  do for [i = 1:4] {
-    name = word(names, i)
-    set lmargin at screen 0.075 + (i - 1) * 0.2325
-    set rmargin at screen 0.075 + (i - 1) * 0.2325 + 0.21
-    set tmargin at screen 0.885 - (row - 1) * 0.40
-    set bmargin at screen 0.545 - (row - 1) * 0.40
-    set format y (i == 1 ? '%g' : '')
-    if (i == 1) { set ylabel 'Data sets' offset 0.8, 0 } else { unset ylabel }
-    if (row == 2) { set xlabel word(titles, i).': rank' offset 0, 0.4; set format x '%g' } else { unset xlabel; set format x '' }
-    if (row == 1) { set xtics ('' 0, '' 0.25, '' 0.5, '' 0.75, '' 1) } else { set xtics ('0' 0, '' 0.25, '0.5' 0.5, '' 0.75, '1' 1) }
-    set label 1 sprintf('(%s)', 'abcdefgh'[(row - 1) * 4 + i:(row - 1) * 4 + i]) at graph 0.03, 0.92 font 'Nimbus Sans:Bold,8.5' front
-    plot ranks using 'place':(own(sampler, name, 'band_low')):'band_high' with filledcurves fc rgb '#C8C8C8' fs solid noborder, \
-         ranks using 'place':(own(sampler, name, 'expected')) with lines ls BOUNDARY lw 0.8, \
-         ranks using 'place':(own(sampler, name, 'count')) with histeps lc rgb colour lw 1.3, \
-         keyentry with lines lc rgb vermillion lw 1.3 title 'Published setting', \
-         keyentry with lines lc rgb green lw 1.3 title 'Recommended', \
-         keyentry with filledcurves fc rgb '#C8C8C8' fs solid noborder title '99 % of a calibrated sampler'
-    unset key
-  }
+do for [k = 1:panels] {
+  sampler = word(samplers, k)
+  set lmargin at screen 0.085 + (k - 1) * 0.91 / panels
+  set rmargin at screen 0.085 + k * 0.91 / panels - 0.02
+  if (k == 1) { set ylabel 'ECDF of the rank − uniform' offset 0.8, 0; set format y '%.2f' } else { unset ylabel; set format y '' }
+  set xlabel 'Rank of the truth' offset 0, 0.4
+  set label 1 sprintf('(%s) %s', 'abcd'[k:k], plain(sampler)) at graph 0, 1.05 left font 'Nimbus Sans:Bold,8.5' front
+  band = 3.47 / sqrt(data_sets_of[k])
+  half(u) = band * sqrt(u * (1 - u))
+  array sums[4] = [0, 0, 0, 0]
+  difference(i) = (sums[i] = sums[i] + column('count'), sums[i] / data_sets_of[k] - column('place') - 0.025)
+  plot '+' using 1:(-half($1)):(half($1)) with filledcurves fc rgb '#E4E4E4' fs solid noborder, \
+       0 with lines ls BOUNDARY lw 0.8, \
+       for [i = 1:4] ranks using (is(sampler, word(names, i)) ? column('place') + 0.025 : NaN): \
+           (is(sampler, word(names, i)) ? difference(i) : NaN) with lines lw 1.3 lc rgb word(colours, i) dt i \
+           title word(titles, i), \
+       keyentry with boxes fc rgb '#E4E4E4' fs solid noborder title '99 % band'
+  unset key
 }
 unset multiplot

@@ -8,7 +8,7 @@ load 'figures/style.gp'
 pairs = data.'/forensics_pairs.csv'
 stats pairs using 'row' nooutput name 'rows'
 last = rows_max
-shown(x) = x <= -100 ? '' : sprintf('%.0f', x)
+shown(x) = x <= -100 ? '' : sprintf('%d', floor(x + 0.5))
 
 set lmargin at screen 0.335
 set rmargin at screen 0.985
@@ -23,8 +23,8 @@ unset grid
 set border 15 back ls 100
 set xtics rotate by 60 right offset 0.3, 0.1 scale 0 font ',7'
 set ytics scale 0 font ',7'
-set label 1 'setting of TMCMC' at screen 0.012, 0.655 center rotate by 90
-set label 2 'setting of TMCMC-II' at screen 0.66, 0.015 center
+set label 1 'Setting of TMCMC' at screen 0.022, 0.655 center rotate by 90
+set label 2 'Setting of TMCMC-II' at screen 0.66, 0.025 center
 
 plot pairs using 'column':'row':'gain':xtic(strcol('second')):ytic(strcol('first')) with image pixels, \
      pairs using 'column':'row':(shown(column('gain'))) with labels font ',6.5', \

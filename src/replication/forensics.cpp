@@ -83,12 +83,12 @@ std::vector<Setting> forensic_settings(tmcmc::Index samples) {
     }
     return r;
   };
-  settings.push_back({"3 steps, redraw", base, {}});
+  settings.push_back({"3 steps redraw", base, {}});
   for (const int steps : {2, 4, 5}) {
-    settings.push_back({std::to_string(steps) + " steps, redraw", changed(steps, Outside::redraw), {}});
+    settings.push_back({std::to_string(steps) + " steps redraw", changed(steps, Outside::redraw), {}});
   }
   for (const int steps : {2, 3, 4, 5}) {
-    settings.push_back({std::to_string(steps) + " steps, reject", changed(steps, Outside::reject), {}});
+    settings.push_back({std::to_string(steps) + " steps reject", changed(steps, Outside::reject), {}});
   }
   Reading population = base;
   population.sampler.criterion.deviation = tmcmc::Deviation::population;
@@ -97,8 +97,8 @@ std::vector<Setting> forensic_settings(tmcmc::Index samples) {
   no_penalty.infeasible_log_likelihood = -std::numeric_limits<double>::infinity();
   no_penalty.sampler.criterion.counted = tmcmc::Counted::feasible;
   settings.push_back({"no penalty", no_penalty, {}});
-  settings.push_back({"half 3 redraw, half 4 reject", base, changed(4, Outside::reject)});
-  settings.push_back({"half 2, half 4 redraw", changed(2, Outside::redraw), changed(4, Outside::redraw)});
+  settings.push_back({"half 3 redraw + 4 reject", base, changed(4, Outside::reject)});
+  settings.push_back({"half 2 + 4 redraw", changed(2, Outside::redraw), changed(4, Outside::redraw)});
   return settings;
 }
 
