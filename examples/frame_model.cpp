@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "errors/invalid_value.hpp"
 #include "inputs.hpp"
+#include "models/parallel_batches.hpp"
 #include "models/program.hpp"
+#include "models/um_bridge.hpp"
+#include "models/worker.hpp"
 #include "storage/checkpoint.hpp"
 
 namespace examples {
@@ -26,6 +30,37 @@ Model shear_frame(const ModelOptions& options) {
           description, frame};
 }
 
+std::string description_of_file(const std::string& kind, const std::string& path) {
+  return fmt::format("{} with checksum {}, {}", kind, storage::file_checksum(path),
+                     io::printable_path(std::filesystem::canonical(path)));
+}
+
+/// \param description  what it depends on
+tmcmc::LogLikelihood program_of(const ModelOptions& options, const std::vector<std::string>& names,
+                                std::string& description) {
+  if (!options.command.empty()) {
+    models::Program program({options.command, names, options.timeout_seconds});
+    description = description_of_file("program", options.command);
+    return program;
+  }
+  if (!options.worker.empty()) {
+    models::Worker worker({options.worker, names, options.timeout_seconds, options.note});
+    description = description_of_file("worker", options.worker);
+    return worker;
+  }
+  models::UmBridgeOptions bridge;
+  bridge.server.url = options.um_bridge;
+  bridge.server.timeout_seconds = options.timeout_seconds;
+  bridge.model = options.model;
+  bridge.parameter_names = names;
+  if (options.has_own_observations) {
+    const auto table = io::CsvTable::read(options.observations);
+    bridge.data = {table.numbers("observation"), table.numbers("standard_deviation")};
+  }
+  description = fmt::format("UM-Bridge model {} of {}", options.model, options.um_bridge);
+  return models::UmBridge(std::move(bridge));
+}
+
 Model other_program(const ModelOptions& options) {
   const auto require_name = [&](const std::string& name) {
     if (name.empty() || io::printable(name, std::string::npos) != name || name == "log_likelihood") {
@@ -37,21 +72,33 @@ Model other_program(const ModelOptions& options) {
   };
   tmcmc::Prior prior = experiments::read_prior(options.prior, {.names = {}, .require_name = require_name});
   auto names = prior.names();
-  models::Program program({options.command, names, options.timeout_seconds});
-  std::string description = "program with checksum " + storage::file_checksum(options.command);
+  std::string description;
+  auto model = program_of(options, names, description);
   if (options.has_own_observations) {
     description += ", observations with checksum " + storage::file_checksum(options.observations);
   }
-  description +=
-      fmt::format(", {}, parameters {}", io::printable_path(std::filesystem::canonical(options.command)),
-                  fmt::join(names, ","));
-  return {std::move(names), std::move(prior), std::move(program), description, std::nullopt};
+  description += fmt::format(", parameters {}", fmt::join(names, ","));
+  const tmcmc::Index batch = options.um_bridge.empty() ? options.batch : 1;
+  return {std::move(names), std::move(prior),
+          models::parallel_batches(std::move(model), {.calls = options.parallel, .batch_rows = batch}),
+          std::move(description), std::nullopt};
 }
 
 }  // namespace
 
+bool is_other_program(const ModelOptions& options) {
+  return !options.command.empty() || !options.worker.empty() || !options.um_bridge.empty();
+}
+
 Model make_model(const ModelOptions& options) {
-  return options.command.empty() ? shear_frame(options) : other_program(options);
+  const bool is_command = !options.command.empty(), is_worker = !options.worker.empty();
+  if ((is_command && is_worker) || ((is_command || is_worker) && !options.um_bridge.empty())) {
+    throw std::invalid_argument("--command, --worker, --um-bridge: expected one of them");
+  }
+  if (options.um_bridge.empty() != options.model.empty()) {
+    throw std::invalid_argument("--um-bridge, --model: expected both of them");
+  }
+  return is_other_program(options) ? other_program(options) : shear_frame(options);
 }
 
 storage::InferenceData inference_data(const tmcmc::Result& result, const Model& model, std::uint64_t seed) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,16 +37,32 @@ struct ModelOptions {
   bool has_own_observations = false;
   /// Distributions of the parameters, and the correlations between them if there are any.
   experiments::PriorFiles prior = {};
-  /// Program that computes the log-likelihoods; empty: the shear frame.
+  /// Program that computes the log-likelihoods of a batch; empty: none. Without any of the three: the shear frame.
   std::string command = {};
+  /// Program that keeps running and answers lines with lines; empty: none.
+  std::string worker = {};
+  /// Address of a UM-Bridge server; empty: none. With own observations its outputs are compared with them.
+  std::string um_bridge = {};
+  /// Name of the model on that server.
+  std::string model = {};
   /// Limit of one call of the program, s; 0: none.
   double timeout_seconds = 0.0;
+  /// Most calls of the program at a time.
+  int parallel = 1;
+  /// Most points of a call of the program; 0: as many as the batch has for each of the calls at a time.
+  long batch = 0;
+  /// Told what the user should know while the run goes.
+  std::function<void(const std::string&)> note = [](const std::string&) {};
   /// Whether the names have to be those of variables in a NetCDF file.
   bool for_netcdf = false;
 };
 
-/// The program of the options, or the shear frame.
-/// \throws io::InputError naming file, line, column and value; models::ModelError if the program
+/// Whether the model is another program.
+[[nodiscard]] bool is_other_program(const ModelOptions& options);
+
+/// The program of the options, called several times at a time, or the shear frame.
+/// \throws std::invalid_argument for more than one program, or a server without a name of a model;
+///         io::InputError naming file, line, column and value; models::ModelError if the program
 ///         cannot be run.
 [[nodiscard]] Model make_model(const ModelOptions& options);
 

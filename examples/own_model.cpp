@@ -1,6 +1,7 @@
 // A model of one's own, from measurements to a posterior: the storey stiffnesses of a two-storey shear frame from measured
 // natural frequencies (docs/own_model.md says how to put another in its place). The model is the C++ of shear_frame.hpp,
-// or with --command any other program with the parameters of the file of the prior, called once a batch of points.
+// or any other program with the parameters of the file of the prior: called once a batch of points (--command), started once
+// (--worker), or behind a server of UM-Bridge (--um-bridge).
 //
 // Data: data/examples/, made by data/examples/simulate_frame.py; or the reader's own measurements.
 
@@ -70,6 +71,7 @@ int main(int argc, char** argv) {
                              .prior = {.marginals = example("frame_prior.csv"), .correlations = {}}};
   std::string output, netcdf_path, checkpoint_path;
   long evaluations = 31000;
+  std::optional<long> parallel;
   RunOptions run_options;
   add_output(app, output, "CSV: a row a sample, with its log-likelihood");
   add_output(app, "--netcdf", netcdf_path, "Samples, stages and observations in the layout of ArviZ");
@@ -77,14 +79,15 @@ int main(int argc, char** argv) {
       app, "--checkpoint", checkpoint_path,
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
       ".checkpoint, if --output is a file");
-  add_input(
-      app, "--observations", model_options.observations,
-      "CSV with columns mode (1 or 2), frequency_hz. With --command: a file that the program reads; the "
-      "checkpoint of a run with other contents is refused");
+  add_input(app, "--observations", model_options.observations,
+            "CSV with columns mode (1 or 2), frequency_hz. With another program: a file that it reads; the "
+            "checkpoint of a run with other contents is refused. With --um-bridge: columns observation, "
+            "standard_deviation, which the model's outputs are compared with; without it the output is the "
+            "log-likelihood");
   add_input(
       app, "--prior", model_options.prior.marginals,
       "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a column for each "
-      "argument. With --command: the parameters, of any names");
+      "argument. With another program: the parameters, of any names");
   add_input(app, "--prior-correlation", model_options.prior.correlations,
             "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
             "normal_score, and a column for each parameter; without it they are independent");
@@ -92,6 +95,17 @@ int main(int argc, char** argv) {
   app.add_option("--command", model_options.command,
                  "Program that computes the log-likelihoods: PROGRAM points.csv log_likelihoods.csv")
       ->type_name("PROGRAM");
+  app.add_option("--worker", model_options.worker,
+                 "Program that keeps running: n and n points as lines in, n log-likelihoods as lines out")
+      ->type_name("PROGRAM");
+  app.add_option("--um-bridge", model_options.um_bridge, "Server of the UM-Bridge protocol, with --model")
+      ->type_name("URL");
+  app.add_option("--model", model_options.model, "Model of the UM-Bridge server")->type_name("NAME");
+  app.add_option("--parallel", parallel, "Calls of the program at a time; without it as many as --threads")
+      ->transform(count(1, 4096));
+  app.add_option("--batch", model_options.batch,
+                 "Most points of a call of the program; 0: all that there are for each call at a time")
+      ->transform(count(0));
   app.add_option("--timeout", model_options.timeout_seconds,
                  "Most seconds of one call of the program; 0: no limit")
       ->transform(number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"));
@@ -101,6 +115,9 @@ int main(int argc, char** argv) {
   return report.run(argc, argv, [&] {
     model_options.for_netcdf = !netcdf_path.empty();
     model_options.has_own_observations = model_options.observations != example("frame_observations.csv");
+    const int threads = run_options.study_options().threads;
+    model_options.parallel = parallel ? static_cast<int>(*parallel) : threads;
+    model_options.note = [&](const std::string& text) { report("{}\n", text); };
     const Model model = make_model(model_options);
     const auto shared = ranks.share(model.log_likelihood);
     if (!shared) {
@@ -124,11 +141,9 @@ int main(int argc, char** argv) {
                       io::printable_path(netcdf_path)));
     }
 
-    storage::RunDescription run{sampler_options(evaluations, run_options.study_options().threads),
-                                {.seed = run_options.seed},
-                                model.prior,
-                                model.description};
-    if (ranks.size() > 1) {  // a call for each batch, which the ranks share
+    storage::RunDescription run{
+        sampler_options(evaluations, threads), {.seed = run_options.seed}, model.prior, model.description};
+    if (ranks.size() > 1 || is_other_program(model_options)) {  // a call for each batch, which they share
       run.options.threads = 1;
       run.options.batch_rows = 0;
     }

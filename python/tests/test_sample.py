@@ -1,5 +1,6 @@
 """The sampler from Python: right answers, same seed same bytes, errors that name the point, interrupts."""
 
+import csv
 import math
 import os
 import signal
@@ -7,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -258,6 +260,29 @@ def test_netcdf_has_the_layout_of_inference_data(tmp_path):
         assert posterior.attrs["log_evidence"] == result.log_evidence
     with xarray.open_dataset(tmp_path / "result.nc", group="sample_stats") as statistics:
         assert statistics["lp"].dims == ("chain", "draw")
+
+
+def test_same_bytes_as_the_executable(tmp_path):
+    root = Path(__file__).parents[2]
+    executable = root / "build/release/bin/own_model"
+    if not executable.exists():
+        pytest.skip("own_model is not built (make build)")
+    sys.path.insert(0, str(root / "data/examples"))
+    from two_storey_frame import log_likelihood
+
+    with (root / "data/examples/frame_observations.csv").open() as file:
+        measured = [(int(row["mode"]), float(row["frequency_hz"])) for row in csv.DictReader(file)]
+    with (root / "data/examples/frame_prior.csv").open() as file:
+        prior = {row["parameter"]: (float(row["lower"]), float(row["upper"])) for row in csv.DictReader(file)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tmcmc.SamplingWarning)
+        result = tmcmc.sample(lambda x: [log_likelihood(measured, *row) for row in x], prior, evaluations=SMALL, seed=3)
+    worker = root / "data/examples/two_storey_worker.py"
+    command = [executable, "--worker", worker, "--evaluations", str(SMALL), "--seed", "3", "--quiet"]
+    subprocess.run([*command, "--output", tmp_path / "samples.csv"], check=True)
+    table = np.loadtxt(tmp_path / "samples.csv", delimiter=",", skiprows=1)
+    assert table[:, :-1].tobytes() == result.samples.tobytes()
+    assert table[:, -1].tobytes() == result.log_likelihood.tobytes()
 
 
 def test_the_program_in_the_readme_runs_as_printed(tmp_path):

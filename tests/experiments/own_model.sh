@@ -60,6 +60,33 @@ $own --command data/examples/two_storey_frame.py --output program.csv
 check "the program gives the same posterior" awk -F, 'NR == FNR { for (j = 1; j <= 3; j++) a[FNR, j] = $j; next }
   FNR > 1 { for (j = 1; j <= 3; j++) if (($j - a[FNR, j]) ^ 2 > (1e-9 * $j) ^ 2) bad++ } END { exit bad > 0 }' whole.csv program.csv
 
+# The same as a worker and behind UM-Bridge, to the byte, however many calls there are at a time.
+$own --worker data/examples/two_storey_worker.py --output worker.csv
+check "the worker gives the same bytes as the program" cmp -s program.csv worker.csv
+$own --worker data/examples/two_storey_worker.py --parallel 3 --batch 7 --output batches.csv
+check "three workers in batches of seven too" cmp -s program.csv batches.csv
+data/examples/two_storey_um_bridge.py >address 2>server.log &
+server=$!
+while [ ! -s address ]; do sleep 0.05; done
+bridge="$own --um-bridge $(cat address)"
+$bridge --model posterior --parallel 8 --output bridge.csv
+check "UM-Bridge gives the same bytes as the program" cmp -s program.csv bridge.csv
+printf 'parameter,lower,upper\nstiffness_1,0.5,1.5\nstiffness_2,0.5,1.5\n' >forward_prior.csv
+printf 'observation,standard_deviation\n4.5,0.05\n11.7,0.1\n' >forward_data.csv
+$bridge --model forward --prior forward_prior.csv --observations forward_data.csv --parallel 4 --output forward.csv
+check "outputs are compared with observations" awk -F, 'NR == 1 { exit $0 != "stiffness_1,stiffness_2,log_likelihood" }' forward.csv
+expect_error 1 'expected one of ["posterior","forward"]' $bridge --model missing --output failed.csv
+expect_error 1 'outputs of the sizes [2]: expected 1 in all' $bridge --model forward --prior forward_prior.csv --output failed.csv
+expect_error 1 'inputs of the sizes [2]: expected 3 in all' $bridge --model forward --output failed.csv
+expect_error 2 '--um-bridge, --model: expected both of them' $bridge --output failed.csv
+expect_error 2 '--command, --worker, --um-bridge: expected one of them' $bridge --model posterior --worker ./w --output failed.csv
+kill $server
+wait $server 2>/dev/null
+printf '#!/bin/sh\nread -r n; exit 5\n' >worker.sh
+chmod +x worker.sh
+expect_error 1 'ended with status 5: expected 0 after 0 of 200 log-likelihoods, as did the worker before it; the first of 200 points (stiffness_1 = ' \
+  $own --threads 1 --worker ./worker.sh --output failed.csv
+
 # Programs that fail. Each message names the program, what it did and a point; the directory of the points is gone.
 script() { printf '#!/bin/sh\n%s\n' "$1" >program.sh; chmod +x program.sh; }
 fails() {  # TEXT
