@@ -132,7 +132,8 @@ void WorkerProcess::exchange(std::string_view text, Clock::time_point deadline,
       throw_ended();
     }
     if (!unread_.empty()) {
-      throw ModelError(fmt::format("wrote '{}' before it was given points", io::printable(unread_)));
+      throw ModelError(fmt::format("wrote '{}' before it was given points",
+                                   io::printable(unread_.substr(0, unread_.find('\n')))));
     }
     for (bool is_complete = false; !is_complete || !text.empty();) {
       io::stop_if_interrupted();

@@ -15,8 +15,8 @@ using detail::by_rows;
 using detail::log_normal_density;
 using Panel = boost::math::quadrature::gauss<double, 30>;
 
-constexpr double mass_1 = 16.5e3;             // kg
-constexpr double mass_2 = 16.1e3;             // kg
+constexpr double frame_mass_1 = 16.5e3;       // kg
+constexpr double frame_mass_2 = 16.1e3;       // kg
 constexpr double nominal_stiffness = 29.7e6;  // N/m
 constexpr double first_frequency = 3.13;      // Hz
 constexpr double second_frequency = 9.83;     // Hz
@@ -41,8 +41,8 @@ struct SquaredRatios {
   double second;
 };
 SquaredRatios squared_ratios(const double* theta) {
-  const auto f =
-      shear_frame_frequencies(mass_1, mass_2, theta[0] * nominal_stiffness, theta[1] * nominal_stiffness);
+  const auto f = shear_frame_frequencies(frame_mass_1, frame_mass_2, theta[0] * nominal_stiffness,
+                                         theta[1] * nominal_stiffness);
   return {square(f.first / first_frequency), square(f.second / second_frequency)};
 }
 
@@ -52,12 +52,12 @@ double area_per_squared_ratios(double first, double second) {
   constexpr double two_pi = boost::math::constants::two_pi<double>();
   const double measured_1 = square(two_pi * first_frequency);
   const double measured_2 = square(two_pi * second_frequency);
-  const double sum = mass_1 * mass_2 * (measured_1 * first + measured_2 * second);
-  const double product =
-      mass_2 * (mass_1 + mass_2) * mass_1 * mass_2 * measured_1 * first * measured_2 * second;
+  const double sum = frame_mass_1 * frame_mass_2 * (measured_1 * first + measured_2 * second);
+  const double product = frame_mass_2 * (frame_mass_1 + frame_mass_2) * frame_mass_1 * frame_mass_2 *
+                         measured_1 * first * measured_2 * second;
   const double difference = std::sqrt(sum * sum - 4.0 * product);
-  return std::fabs(measured_2 * second - measured_1 * first) * square(mass_1 * mass_2) / difference *
-         measured_1 * measured_2 / square(nominal_stiffness);
+  return std::fabs(measured_2 * second - measured_1 * first) * square(frame_mass_1 * frame_mass_2) /
+         difference * measured_1 * measured_2 / square(nominal_stiffness);
 }
 
 /// Mean of area_per_squared_ratios over independent normals about `centre` with standard deviation sd.
@@ -77,7 +77,7 @@ double mean_area(double sd, SquaredRatios centre) {
 
 std::function<std::size_t(const Eigen::Ref<const Eigen::RowVectorXd>&)> side_of_frame() {
   return [](const Eigen::Ref<const Eigen::RowVectorXd>& x) {
-    return static_cast<std::size_t>(mass_2 * x[0] < (mass_1 + mass_2) * x[1] ? 0 : 1);
+    return static_cast<std::size_t>(frame_mass_2 * x[0] < (frame_mass_1 + frame_mass_2) * x[1] ? 0 : 1);
   };
 }
 

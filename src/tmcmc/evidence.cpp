@@ -9,12 +9,12 @@
 
 #include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/detail/infinity.hpp"
 
 namespace tmcmc {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double smallest_sum = 1e-300;  // of the overlap of two populations
 constexpr double smallest_slope = 1e-3;  // of populations in the wrong order
 
@@ -57,8 +57,8 @@ double least_centre(const std::vector<double>& before, const std::vector<double>
   double feasible = 0.0;
   for (const auto* population : {&before, &after}) {
     for (const double value : *population) {
-      least = value == -infinity ? least : std::min(least, value);
-      feasible += value == -infinity ? 0.0 : 1.0;
+      least = value == -detail::infinity ? least : std::min(least, value);
+      feasible += value == -detail::infinity ? 0.0 : 1.0;
     }
   }
   const double m = static_cast<double>(after.size());
@@ -121,7 +121,7 @@ double grouped_variance(ConstDoubles values, std::span<const Index> groups) {
   }
   const double count = effective_groups(groups);
   return count > 1.0 ? std::inner_product(sums.begin(), sums.end(), sums.begin(), 0.0) * count / (count - 1.0)
-                     : infinity;
+                     : detail::infinity;
 }
 
 void BridgeEvidence::add(ConstDoubles before, ConstDoubles after, Index chains, double step) {

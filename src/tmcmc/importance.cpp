@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "portable_math/sums.hpp"
+#include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/log_weights.hpp"
 
 namespace tmcmc {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Mean of log(1 - theta x): the shape of a generalised Pareto distribution given theta = -shape / scale.
 double mean_log_term(const std::vector<double>& x, double theta) {
@@ -37,7 +36,7 @@ double fitted_shape(const std::vector<double>& x) {
     thetas.push_back(theta);
     log_likelihoods.push_back(n * (portable_math::log(-theta / shape) - shape - 1.0));
   }
-  double largest = -infinity;
+  double largest = -detail::infinity;
   for (const double value : log_likelihoods) {
     largest = value > largest ? value : largest;
   }
@@ -79,14 +78,14 @@ ImportanceEstimate importance_estimate(ConstDoubles log_weights) {
   ImportanceEstimate estimate;
   estimate.log_mean = sums.log_mean;
   if (!(sums.sum > 0.0)) {
-    estimate.standard_error = infinity;
-    estimate.pareto_shape = infinity;
+    estimate.standard_error = detail::infinity;
+    estimate.pareto_shape = detail::infinity;
     return estimate;
   }
   const double mean = sums.sum / n;
   const double squares =
       portable_math::sum_of(weights.size(), [&](std::size_t i) { return weights[i] * weights[i]; });
-  estimate.standard_error = n > 1.0 ? std::sqrt(variance_within_runs(weights) / n) / mean : infinity;
+  estimate.standard_error = n > 1.0 ? std::sqrt(variance_within_runs(weights) / n) / mean : detail::infinity;
   estimate.effective_sample_size = sums.sum * sums.sum / squares;
   estimate.pareto_shape = pareto_shape(log_weights);
   return estimate;
@@ -109,21 +108,21 @@ double pareto_shape(ConstDoubles log_weights) {
   const auto n = static_cast<double>(log_weights.size());
   const auto tail = static_cast<std::size_t>(std::ceil(std::min(0.2 * n, 3.0 * std::sqrt(n))));
   if (tail < 5 || log_weights.size() < 25) {
-    return -infinity;
+    return -detail::infinity;
   }
   std::vector<double> largest(log_weights.begin(), log_weights.end());
   const auto cut = largest.end() - static_cast<std::ptrdiff_t>(tail) - 1;
   std::nth_element(largest.begin(), cut, largest.end());
   std::sort(cut, largest.end());
-  if (largest.back() == -infinity) {
-    return infinity;
+  if (largest.back() == -detail::infinity) {
+    return detail::infinity;
   }
   const double threshold = portable_math::exp(*cut - largest.back());
   std::vector<double> exceedances;
   for (auto value = cut + 1; value != largest.end(); ++value) {
     exceedances.push_back(portable_math::exp(*value - largest.back()) - threshold);
   }
-  return exceedances.back() > 0.0 ? fitted_shape(exceedances) : -infinity;
+  return exceedances.back() > 0.0 ? fitted_shape(exceedances) : -detail::infinity;
 }
 
 double tempering_power(ConstDoubles log_weights, double target) {

@@ -18,8 +18,6 @@ using detail::weighted_mean;
 
 namespace {
 
-constexpr Index block_rows = detail::mixture_rows;
-
 PORTABLE_MATH_MULTIVERSION
 double sum(const double* x, Index n) {
   return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i]; });
@@ -148,8 +146,8 @@ class Fit {
   double expect(const StudentMixture& mixture) {
     const Index components = mixture.size();
     const auto parts = detail::components_of(mixture);
-    const auto entries = static_cast<std::size_t>(components * block_rows);
-    const auto block = static_cast<std::size_t>(d_ * block_rows);
+    const auto entries = static_cast<std::size_t>(components * detail::mixture_rows);
+    const auto block = static_cast<std::size_t>(d_ * detail::mixture_rows);
     white_.resize(block);
     pulled_.resize(block);
     distances_.resize(entries);
@@ -157,11 +155,11 @@ class Fit {
     moments_.assign(static_cast<std::size_t>(components),
                     {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
     double log_density_sum = 0.0;
-    double log_densities[block_rows];
-    double taken[block_rows];
-    double pull[block_rows];
-    for (Index begin = 0; begin < n_; begin += block_rows) {
-      const Index rows = std::min(block_rows, n_ - begin);
+    double log_densities[detail::mixture_rows];
+    double taken[detail::mixture_rows];
+    double pull[detail::mixture_rows];
+    for (Index begin = 0; begin < n_; begin += detail::mixture_rows) {
+      const Index rows = std::min(detail::mixture_rows, n_ - begin);
       const double* weights = data_.weights.data() + begin;
       detail::mixture_density(parts, d_, mixture.degrees_of_freedom, data_.points.data() + begin, n_, rows,
                               white_.data(), distances_.data(), log_densities, shares_.data());
@@ -169,16 +167,17 @@ class Fit {
       for (Index k = 0; k < components; ++k) {
         Moments& moments = moments_[static_cast<std::size_t>(k)];
         pulls(rows, options_.degrees_of_freedom, static_cast<double>(d_), weights,
-              shares_.data() + k * block_rows, distances_.data() + k * block_rows, taken, pull);
+              shares_.data() + k * detail::mixture_rows, distances_.data() + k * detail::mixture_rows, taken,
+              pull);
         moments.taken += sum(taken, rows);
         moments.pull += sum(pull, rows);
         for (Index j = 0; j < d_; ++j) {
-          double* pulled = pulled_.data() + j * block_rows;
+          double* pulled = pulled_.data() + j * detail::mixture_rows;
           deviations(rows, mixture.means(j, k), data_.points.data() + begin + j * n_, pull,
-                     white_.data() + j * block_rows, pulled);
+                     white_.data() + j * detail::mixture_rows, pulled);
           moments.first[j] += sum(pulled, rows);
           for (Index l = 0; l <= j; ++l) {
-            moments.second(j, l) += product_sum(pulled, white_.data() + l * block_rows, rows);
+            moments.second(j, l) += product_sum(pulled, white_.data() + l * detail::mixture_rows, rows);
           }
         }
       }

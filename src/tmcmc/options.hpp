@@ -67,7 +67,7 @@ struct Options {
 template <class AnyOptions, class Visit>
 void visit_options(AnyOptions& options, Visit&& visit) {
   using enum OptionGroup;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   visit({"samples", paper, whole_from(2), "N, the samples of a run"}, &options.samples);
   visit_criterion_options(options.criterion, visit);
   visit({"resampling", beyond_the_paper, named(), "Choice of the starts"}, &options.resampling);
@@ -79,7 +79,7 @@ void visit_options(AnyOptions& options, Visit&& visit) {
         &options.cross_fit);
   visit({"infeasible_level",
          computation,
-         {.least = -infinity, .most = infinity},
+         {.least = -unlimited, .most = unlimited},
          "Log-likelihoods up to this count as infeasible"},
         &options.infeasible_level);
   visit({.name = "max_stages",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "errors/invalid_value.hpp"
+#include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
 #include "tmcmc/parallel.hpp"
 
@@ -14,11 +15,9 @@ namespace tmcmc {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The nearest double strictly between the bounds.
 double inside(double value, double lower, double upper) {
-  return std::clamp(value, std::nextafter(lower, infinity), std::nextafter(upper, -infinity));
+  return std::clamp(value, std::nextafter(lower, detail::infinity), std::nextafter(upper, -detail::infinity));
 }
 
 /// Entry (i, j), j <= i, of the matrix with this Cholesky factor; plain sums, for the same digits everywhere.

@@ -8,13 +8,12 @@
 
 #include "portable_math/elementary.hpp"
 #include "portable_math/multiversion.hpp"
+#include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/prior.hpp"
 
 namespace tmcmc {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 PORTABLE_MATH_MULTIVERSION
 void add_squares(double sign, const double* x, std::size_t n, double* sum) {
@@ -91,7 +90,7 @@ void Prior::add_copula(std::span<const double* const> columns, std::size_t n, do
     }
     for (std::size_t i = 0; i < rows; ++i) {  // on a bound a score is infinite, outside it is NaN
       const double density = result[first + i] - 0.5 * sum[i];
-      result[first + i] = std::isfinite(sum[i]) ? density : -infinity;
+      result[first + i] = std::isfinite(sum[i]) ? density : -detail::infinity;
     }
   }
 }
@@ -107,7 +106,7 @@ void Prior::own_log_density(std::span<const double* const> columns, std::size_t 
     if (is_inside) {
       rows.push_back(i);
     } else {
-      result[i] = -infinity;
+      result[i] = -detail::infinity;
     }
   }
   if (rows.empty()) {
@@ -123,7 +122,7 @@ void Prior::own_log_density(std::span<const double* const> columns, std::size_t 
   }
   own_->log_density(points, values);
   for (Index k = 0; k < count; ++k) {
-    if (!(values[k] < infinity)) {
+    if (!(values[k] < detail::infinity)) {
       std::ostringstream message;
       message.precision(17);
       message << "the log-density of the prior is " << values[k] << " at (";

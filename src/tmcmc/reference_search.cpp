@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/log_weights.hpp"
 #include "tmcmc/parallel.hpp"
@@ -14,8 +15,6 @@ namespace tmcmc {
 using detail::require_valid;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Matrix>
 Matrix stacked(const Matrix& a, const Matrix& b) {
@@ -43,7 +42,7 @@ void add_reference(const ReferenceDensity& reference, Index count, const Populat
 }
 
 Index feasible_draws(const ReferenceDraws& draws) {
-  return (draws.log_likelihood.array() > -infinity).count();
+  return (draws.log_likelihood.array() > -detail::infinity).count();
 }
 
 /// Points whose weights sum to their effective size.
@@ -63,7 +62,7 @@ WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_
 Eigen::VectorXd at_temperature(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double beta) {
   Eigen::VectorXd tempered = log_weight;
   for (Index i = 0; i < tempered.size(); ++i) {
-    if (draws.log_likelihood[i] > -infinity) {
+    if (draws.log_likelihood[i] > -detail::infinity) {
       tempered[i] -= (1.0 - beta) * draws.log_likelihood[i];
     }
   }

@@ -12,7 +12,6 @@ namespace tmcmc {
 
 namespace {
 
-constexpr Index block_rows = detail::mixture_rows;
 constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
 /// log Gamma(twice / 2), by the recurrence from Gamma(1) = 1 or Gamma(1/2) = sqrt(pi).
@@ -32,7 +31,7 @@ void whiten(const double* points, Index stride, Index rows, Index d, const doubl
     distances[i] = 0.0;
   }
   for (Index j = 0; j < d; ++j) {
-    double* y = white + j * block_rows;
+    double* y = white + j * detail::mixture_rows;
     const double* z = points + j * stride;
     const double centre = mean[j];
     for (Index i = 0; i < rows; ++i) {
@@ -40,7 +39,7 @@ void whiten(const double* points, Index stride, Index rows, Index d, const doubl
     }
     for (Index l = 0; l < j; ++l) {
       const double entry = factor[j + l * d];
-      const double* before = white + l * block_rows;
+      const double* before = white + l * detail::mixture_rows;
       for (Index i = 0; i < rows; ++i) {
         y[i] -= entry * before[i];
       }
@@ -57,7 +56,7 @@ void whiten(const double* points, Index stride, Index rows, Index d, const doubl
 PORTABLE_MATH_MULTIVERSION
 void add_powers(Index rows, double factor, double inverse_nu, Index twice_exponent, const double* distances,
                 double* share, double* sum) {
-  double square[block_rows];
+  double square[detail::mixture_rows];
   for (Index i = 0; i < rows; ++i) {
     square[i] = 1.0 / (1.0 + distances[i] * inverse_nu);
   }
@@ -128,8 +127,8 @@ void log_row(const std::vector<Component>& components, double exponent, double i
   const auto count = static_cast<Index>(components.size());
   double largest = minus_infinity;
   for (Index k = 0; k < count; ++k) {
-    const double distance = distances[k * block_rows + i];
-    double& term = shares[k * block_rows + i];
+    const double distance = distances[k * detail::mixture_rows + i];
+    double& term = shares[k * detail::mixture_rows + i];
     term = components[static_cast<std::size_t>(k)].log_constant -
            exponent * portable_math::log(1.0 + distance * inverse_nu);
     largest = term > largest ? term : largest;
@@ -137,13 +136,13 @@ void log_row(const std::vector<Component>& components, double exponent, double i
   const double shift = largest == minus_infinity ? 0.0 : largest;
   double sum = 0.0;
   for (Index k = 0; k < count; ++k) {
-    double& share = shares[k * block_rows + i];
+    double& share = shares[k * detail::mixture_rows + i];
     share = portable_math::exp(share - shift);
     sum += share;
   }
   log_density[i] = shift + portable_math::log(sum);
   for (Index k = 0; k < count; ++k) {
-    shares[k * block_rows + i] *= sum > 0.0 ? 1.0 / sum : 0.0;
+    shares[k * detail::mixture_rows + i] *= sum > 0.0 ? 1.0 / sum : 0.0;
   }
 }
 
@@ -160,17 +159,17 @@ void mixture_density(const std::vector<Component>& components, Index d, int degr
   const double shift = largest == minus_infinity ? 0.0 : largest;
   const double inverse_nu = 1.0 / degrees_of_freedom;
   const Index twice_exponent = degrees_of_freedom + d;
-  double sum[block_rows] = {};
+  double sum[detail::mixture_rows] = {};
   for (std::size_t k = 0; k < components.size(); ++k) {
-    const Index column = static_cast<Index>(k) * block_rows;
+    const Index column = static_cast<Index>(k) * detail::mixture_rows;
     whiten(points, stride, rows, d, components[k].mean, components[k].factor, white, distances + column);
     add_powers(rows, portable_math::exp(components[k].log_constant - shift), inverse_nu, twice_exponent,
                distances + column, shares + column, sum);
   }
-  double inverse[block_rows];
+  double inverse[detail::mixture_rows];
   log_and_inverse(rows, shift, sum, log_density, inverse);
   for (std::size_t k = 0; k < components.size(); ++k) {
-    scale_by(rows, inverse, shares + static_cast<Index>(k) * block_rows);
+    scale_by(rows, inverse, shares + static_cast<Index>(k) * detail::mixture_rows);
   }
   for (Index i = 0; i < rows; ++i) {
     if (!(sum[i] > least_sum)) {
@@ -187,12 +186,12 @@ Eigen::VectorXd log_density(const StudentMixture& mixture, const Population& poi
   const auto components = detail::components_of(mixture);
   Eigen::VectorXd result(points.rows());
   for_each_block(points.rows(), reduction_rows, threads, [&](Index, Index begin, Index end) {
-    const auto entries = static_cast<std::size_t>(mixture.size() * block_rows);
-    std::vector<double> white(static_cast<std::size_t>(d * block_rows));
+    const auto entries = static_cast<std::size_t>(mixture.size() * detail::mixture_rows);
+    std::vector<double> white(static_cast<std::size_t>(d * detail::mixture_rows));
     std::vector<double> distances(entries);
     std::vector<double> shares(entries);
-    for (Index i = begin; i < end; i += block_rows) {
-      const Index rows = std::min(block_rows, end - i);
+    for (Index i = begin; i < end; i += detail::mixture_rows) {
+      const Index rows = std::min(detail::mixture_rows, end - i);
       detail::mixture_density(components, d, mixture.degrees_of_freedom, points.data() + i, points.rows(),
                               rows, white.data(), distances.data(), result.data() + i, shares.data());
     }

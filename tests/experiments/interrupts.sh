@@ -25,6 +25,11 @@ ends_by() {
   check "status $status: $what" test $status = $((128 + $(kill -l "$1")))
   check "$took ms: $what" test $took -lt $longest_ms
   local left; left=$(ls -A out tmp | grep -v 'csv.journal$\|csv.checkpoint$\|^$\|:$')
+  if [ "$left" = "$(printf 'out:\nout.csv')" ] || [ "$left" = out.csv ]; then  # the signal came after the work
+    mv out/out.csv made.csv
+    timeout 20 $command >/dev/null 2>&1
+    cmp -s made.csv out/out.csv && left=
+  fi
   check "left '$left': $what" test -z "$left"
   interrupted=$((interrupted + 1))
 }

@@ -14,6 +14,7 @@
 #include "errors/invalid_value.hpp"
 #include "portable_math/multiversion.hpp"
 #include "portable_math/normal_quantile.hpp"
+#include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/marginal.hpp"
 
 namespace tmcmc::detail {
@@ -26,7 +27,6 @@ using Policy = boost::math::policies::policy<
     boost::math::policies::pole_error<boost::math::policies::ignore_error>,
     boost::math::policies::evaluation_error<boost::math::policies::ignore_error>>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double log_sqrt_two_pi = 0.91893853320467274178;
 
 /// Phi(z), with a small relative error where it is small.
