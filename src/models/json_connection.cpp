@@ -28,7 +28,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr double longest_timeout_seconds = 2e6;  // that httplib's milliseconds hold
 constexpr std::chrono::seconds connection_timeout(30);
-constexpr std::size_t longest_shown = 200;
+constexpr std::size_t longest_body = 200;
 
 /// The JSON of a text. Python's json module writes infinities and NaN, which are no JSON, as words; they become texts.
 json parse(std::string text) {
@@ -47,8 +47,8 @@ json parse(std::string text) {
 std::string text_of(const json& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() ? "none"
-         : found->is_string()  ? io::printable(found->get<std::string>(), longest_shown)
-                               : io::printable(found->dump(), longest_shown);
+         : found->is_string()  ? io::printable(found->get<std::string>(), longest_body)
+                               : io::printable(found->dump(), longest_body);
 }
 
 bool is_gateway_failure(int status) {
@@ -134,7 +134,7 @@ json JsonConnection::request(const Send& send) {
       }
       if (!answer.is_object()) {
         throw ModelError(
-            fmt::format("answered '{}': expected a JSON object", io::printable(result->body, longest_shown)));
+            fmt::format("answered '{}': expected a JSON object", io::printable(result->body, longest_body)));
       }
       return answer;
     }

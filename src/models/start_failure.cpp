@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_first_line = 256;  // that Linux reads
-constexpr std::size_t longest_shown = 200;
+constexpr std::size_t longest_word = 200;
 
 std::string first_line_of(const std::string& program) {
   std::ifstream file(program, std::ios::binary);
@@ -64,7 +64,7 @@ std::string explain_start_failure(const std::string& program, int error) {
   }
   if (!interpreter.empty()) {
     return fmt::format(
-        "the interpreter '{}' of its first line: {}{}", io::printable(interpreter, longest_shown), reason,
+        "the interpreter '{}' of its first line: {}{}", io::printable(interpreter, longest_word), reason,
         first_line.ends_with('\r') ? "; the line ends in CR LF, as on Windows: expected LF alone"
                                    : ": expected a program that can be run");
   }
@@ -82,7 +82,7 @@ std::string explain_command_not_run(const std::string& program, int status) {
     return {};
   }
   return fmt::format(" (a command that could not be run; the first line is '{}'{})",
-                     io::printable(first_line, longest_shown),
+                     io::printable(first_line, longest_word),
                      first_line.ends_with('\r') ? ", which ends in CR LF, as on Windows" : "");
 }
 
@@ -107,7 +107,7 @@ std::string runnable_path(const std::string& program) {
   const bool is_file = fs::is_regular_file(program, error);
   if (!is_file || access(program.c_str(), X_OK) != 0) {
     throw ModelError(fmt::format("{}: {}: expected a program that can be run",
-                                 io::printable(program, longest_shown),
+                                 io::printable(program, longest_word),
                                  is_file ? std::strerror(errno)
                                  : error ? error.message()
                                          : "not a file"));

@@ -18,7 +18,7 @@
 namespace models {
 namespace {
 
-constexpr std::size_t longest_shown = 80;
+constexpr std::size_t longest_answer = 80;
 
 std::string text_of(const Eigen::Ref<const Eigen::MatrixXd>& points) {
   std::string text = fmt::format("{}\n", points.rows());
@@ -37,7 +37,7 @@ double value_of(std::string_view line) {
   const bool is_number = io::csv_text::parse_any_double(text, value).empty();
   if (!is_number || !(value < std::numeric_limits<double>::infinity())) {  // NaN and +inf are no likelihoods
     throw ModelError(fmt::format("wrote the log-likelihood '{}': expected a number or -inf",
-                                 io::printable(text, longest_shown)));
+                                 io::printable(text, longest_answer)));
   }
   return value;
 }
@@ -57,7 +57,7 @@ struct Worker::State {
 
   [[noreturn]] void fail(const std::string& what, const Eigen::Ref<const Eigen::MatrixXd>& points,
                          Eigen::Index row) const {
-    throw ModelError(fmt::format("{}: {}; {}", io::printable(options.program, longest_shown), what,
+    throw ModelError(fmt::format("{}: {}; {}", io::printable(options.program, longest_answer), what,
                                  row == 0 ? describe_first_point(options.parameter_names, points)
                                           : describe_point(options.parameter_names, points, row)));
   }
@@ -89,7 +89,7 @@ void Worker::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
       const auto take_line = [&](std::string_view line) {
         if (row == points.rows()) {
           throw ModelError(fmt::format("wrote '{}' after the last of {} log-likelihoods",
-                                       io::printable(line, longest_shown), row));
+                                       io::printable(line, longest_answer), row));
         }
         log_likelihood[row] = value_of(line);
         return ++row == points.rows();
@@ -107,7 +107,7 @@ void Worker::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
       }
       ++state_->restarts;
       options.on_restart(
-          fmt::format("{}: {}; started again", io::printable(options.program, longest_shown), how));
+          fmt::format("{}: {}; started again", io::printable(options.program, longest_answer), how));
       process.reset();
     } catch (const ModelError& error) {
       state_->fail(error.what(), points, std::min(row, points.rows() - 1));

@@ -15,7 +15,7 @@ namespace replication {
 
 namespace {
 
-constexpr double most_ordinary = 1e100;  // sums and squares do not overflow
+constexpr double most_ordinary_number = 1e100;  // sums and squares do not overflow
 
 }  // namespace
 
@@ -57,7 +57,7 @@ GroupedColumns read_samples(const io::CsvTable& table) {
   for (std::size_t c = 0; c < result.columns.size(); ++c) {
     const auto numbers = checked(
         table, result.columns[c], table.numbers(result.columns[c]),
-        [](double x) { return std::fabs(x) <= most_ordinary; }, "a number from -1e100 to 1e100");
+        [](double x) { return std::fabs(x) <= most_ordinary_number; }, "a number from -1e100 to 1e100");
     for (std::size_t row = 0; row < numbers.size(); ++row) {
       result.values[place[row].first][c][place[row].second].push_back(numbers[row]);
     }
