@@ -9,6 +9,7 @@
 #include "replication/study.hpp"
 #include "replication/synthetic.hpp"
 #include "tmcmc/detail/stage.hpp"
+#include "tmcmc/independent_draws.hpp"
 
 namespace {
 
@@ -229,6 +230,19 @@ void one_run_with_prior(benchmark::State& state) {
   per_item(state, evaluations);
 }
 BENCHMARK(one_run_with_prior)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
+
+/// TMCMC's posterior by independent draws from a fitted density.
+void one_run_with_independent_draws(benchmark::State& state) {
+  const Setting s;
+  const tmcmc::IndependentDraws settings{.evaluations = state.range(0)};
+  std::uint32_t run = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        tmcmc::run_with_independent_draws(s.problem, settings, {.seed = 1, .run = run++}));
+  }
+  per_item(state, static_cast<double>(state.range(0)));
+}
+BENCHMARK(one_run_with_independent_draws)->Arg(31000)->Unit(benchmark::kMillisecond);
 
 void one_large_run(benchmark::State& state) {
   const Setting s;
