@@ -10,6 +10,7 @@ namespace io {
 /// Owns a file descriptor; -1 is none.
 class Descriptor {
  public:
+  /// Takes over the descriptor.
   explicit Descriptor(int fd = -1) : fd_(fd) {}
   ~Descriptor() { close(); }
   Descriptor(const Descriptor&) = delete;

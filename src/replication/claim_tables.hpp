@@ -11,7 +11,9 @@ namespace replication {
 
 /// The claims in the order of their file.
 struct ClaimTable {
-  std::vector<std::string> ids, places, texts;
+  std::vector<std::string> ids,  ///< C1, C2, ...
+      places,                    ///< where the paper says it
+      texts;                     ///< what it says
 };
 
 /// Claims in columns id, place and claim: each that has a judge, once.

@@ -13,9 +13,12 @@ namespace replication {
 
 /// A cell of a printed table, or a test of several cells together (table "joint"). What is not known is NaN or empty.
 struct ComparedCell {
+  /// NaN.
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  std::string table, row, column;            ///< where it stands
+  std::string table,                         ///< where it stands: its table,
+      row,                                   ///< its row,
+      column;                                ///< its column
   double printed = unknown;                  ///< as printed
   double ours = unknown;                     ///< of one study of ours
   double median = unknown;                   ///< of replicated studies

@@ -12,7 +12,8 @@ namespace replication {
 /// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion
 /// (Eq. 18), a row a point.
 struct Phases {
-  std::vector<double> phase_deg, limit_force_ratio;
+  std::vector<double> phase_deg,  ///< in degrees
+      limit_force_ratio;          ///< as a multiple of the driving force
 };
 
 /// At points in the columns friction_force_n and frequency_ratio.

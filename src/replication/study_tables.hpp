@@ -27,7 +27,9 @@ namespace replication {
 struct PrintedTables {
   /// Friction force and natural frequency of each sampler.
   std::vector<PrintedArea> areas;
+  /// Runs of each sampler by their number of iterations.
   std::vector<PrintedCounts> counts;
+  /// File of the counts, for messages.
   std::string counts_path;
 };
 /// Both tables have to name the same samplers.

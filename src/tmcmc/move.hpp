@@ -12,6 +12,7 @@ namespace tmcmc {
 
 /// Resampling to N starts, a chain from each, and its last state kept (Ching and Chen 2007).
 struct ResampleMove {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "resample-move";
 
   /// Metropolis steps of each chain and stage; the least number with mixing_correlation.
@@ -29,12 +30,14 @@ struct ResampleMove {
 /// k times or more is not proportional to its weight, so that short chains, which have moved
 /// little, count too much.
 struct GrowingChains {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "growing-chains";
 };
 
 /// Resampling to M starts, a chain of N/M - 1 steps from each, every state kept, the start included
 /// (Dau and Chopin 2022): long chains, and no evaluation thrown away.
 struct WasteFree {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "waste-free";
 
   /// M; a divisor of the number of samples.

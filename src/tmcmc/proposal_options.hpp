@@ -39,8 +39,10 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Co
 /// A proposal that leaves the tempered posterior invariant; one outside the support of the prior is
 /// rejected. The defaults are the paper's random walk.
 struct MetropolisProposal {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "reject";
 
+  /// The coordinates in which it is drawn.
   Coordinates coordinates = Coordinates::natural;
   /// A proposal changes a random set of (whitened) coordinates: detail::MetropolisKernel.
   bool random_subsets = false;
@@ -52,6 +54,7 @@ struct MetropolisProposal {
 /// A random walk in all parameters; what falls outside the support of the prior is drawn again
 /// until it is inside, without the correction of the acceptance ratio (published scripts).
 struct RedrawnWalk {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "redraw";
 
   /// A proposal that is drawn again more often than this ends the run with an error.
@@ -63,14 +66,17 @@ using Proposal = std::variant<MetropolisProposal, RedrawnWalk>;
 
 /// Proposals have this multiple of the population's covariance root (Eq. 5: gamma = 0.2).
 struct FixedScale {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "fixed";
 
+  /// gamma.
   double scale = 0.2;
 };
 
 /// 2.38 / sqrt(d), d the number of coordinates that a proposal changes (Roberts, Gelman and Gilks
 /// 1997).
 struct DimensionScale {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "dimension";
 };
 
@@ -78,14 +84,17 @@ struct DimensionScale {
 /// random walks - acceptance) / sqrt(k), and the next stage goes on from there (after Betz,
 /// Papaioannou and Straub 2016, who adapt after groups of chains). Not for growing chains.
 struct TargetAcceptance {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "target-acceptance";
 
+  /// The acceptance rate that is aimed at.
   double acceptance = 0.3;
 };
 
 /// 1/9 + 8/9 of the acceptance rate of the random walks of the stage before (Minson, Simons and
 /// Beck 2013); first 1.
 struct AcceptanceLinked {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "acceptance-linked";
 };
 

@@ -15,15 +15,19 @@ namespace tmcmc {
 
 /// The coefficient of variation of the weights is `target` (Eq. 6).
 struct CoefficientOfVariation {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "coefficient-of-variation";
 
+  /// 1 is 100 %.
   double target = 1.0;
 };
 
 /// The effective sample size of the weights is this fraction of the samples counted (Eq. 9).
 struct EffectiveSampleSize {
+  /// On the command line and in checkpoints.
   static constexpr std::string_view name = "effective-sample-size";
 
+  /// Of N, in (0, 1].
   double fraction = 0.5;
 };
 
