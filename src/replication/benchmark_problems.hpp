@@ -16,7 +16,7 @@ struct BenchmarkProblem {
   std::string name;           ///< as the tables of benchmark_problems have it
   tmcmc::Problem problem;     ///< likelihood and prior box
   double log_evidence = 0.0;  ///< exact, the prior normalised
-  bool tuned_on = false;      ///< the sampler's settings were chosen with this problem among others
+  bool tuned_on = true;       ///< the sampler's settings were chosen with this problem among others
   /// Where the posterior has separate modes: the number of the mode that a point belongs to.
   std::function<std::size_t(const Eigen::Ref<const Eigen::RowVectorXd>&)> mode_of = {};
   std::vector<double> mode_masses = {};  ///< posterior mass of each mode; empty for a posterior of one mode
