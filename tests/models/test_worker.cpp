@@ -181,7 +181,7 @@ TEST_CASE("a line that no point asked for is seen before the next batch", "[mode
   while (!fs::exists(script.file("written"))) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  CHECK_THROWS_WITH(values_of(worker, some_points(2)), Contains("wrote '-9\\n' before it was given points"));
+  CHECK_THROWS_WITH(values_of(worker, some_points(2)), Contains("wrote '-9' before it was given points"));
 }
 
 TEST_CASE("calls at a time have a worker each, and all end with the last copy", "[models][worker]") {
