@@ -58,34 +58,24 @@ do for [panel = 1:3] {
     set yrange [0.0012:10]
     set ytics (0.002, 0.01, 0.05, 0.2, 1, 5) format '%g'
   }
-  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 maxrows 11 Left reverse samplen 2 width 0 spacing 1.05 font ',7.5' } else { unset key }
+  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 maxrows 13 Left reverse samplen 2 width 0 spacing 1.05 font ',7.5' } else { unset key }
   show_floor = panel < 3 ? 1 : NaN
-<<<<<<< HEAD
-  plot floor_areas using (3000):(strcol('probability') eq '0.5' && panel < 3 ? column(name) : NaN):(1097000):(0) \
-         with vectors nohead ls EXACT dt (8, 4), \
-       for [i = 1:8] settings using 'evaluations':(own(word(families, i), quantity)) with points ls 20 + i, \
-=======
   plot floor_areas using (3000): \
          (strcol('runs') eq '50' && strcol('samples') eq '1000' && panel < 3 ? column(name) : NaN):(1097000):(0) \
          with vectors nohead ls EXACT dt '-', \
        floor_areas using (3000): \
          (strcol('runs') eq '50' && strcol('samples') eq '16000' && panel < 3 ? column(name) : NaN):(1097000):(0) \
          with vectors nohead ls EXACT dt '.', \
-       for [i = 1:7] settings using 'evaluations':(own(word(families, i), quantity)) with points ls 20 + i, \
->>>>>>> 98db61a (Floors by number of draws in Figure 12, distribution functions of the ranks in Figure 13, names of settings without commas)
+       for [i = 1:8] settings using 'evaluations':(own(word(families, i), quantity)) with points ls 20 + i, \
        settings using 'evaluations':(strcol('family') eq 'recommended' ? column(quantity) : 1/0) with lines ls 27, \
        settings using 'evaluations':(strcol('family') eq 'independent' ? column(quantity) : 1/0) with lines ls 28, \
        settings using 'evaluations':(own('published', quantity)) with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion, \
        keyentry with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion title 'Published setting', \
        for [i = 1:6] keyentry with points ls 20 + i title word(titles, i), \
        keyentry with linespoints ls 27 title word(titles, 7), \
-<<<<<<< HEAD
        keyentry with linespoints ls 28 title word(titles, 8), \
-       keyentry with lines ls EXACT dt (8, 4) title '1000 exact draws', \
-=======
        keyentry with lines ls EXACT dt '-' title '50 runs of 1000 exact draws', \
        keyentry with lines ls EXACT dt '.' title '50 runs of 16 000 exact draws', \
->>>>>>> 98db61a (Floors by number of draws in Figure 12, distribution functions of the ranks in Figure 13, names of settings without commas)
        keyentry with lines lc rgb grey dt (4, 4) lw 0.9 title '31 000 evaluations'
 }
 unset multiplot
