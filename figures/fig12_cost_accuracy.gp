@@ -42,14 +42,14 @@ do for [panel = 1:3] {
     name = 'friction_force_n'
     quantity = area(name)
     set ylabel 'P-box area, {/:Italic F}_{/:Italic μ} (N)' offset 0.5, 0
-    set yrange [0.003:0.5]
+    set yrange [0.0015:0.5]
     set ytics (0.003, 0.01, 0.03, 0.1, 0.3) format '%g'
   }
   if (panel == 2) {
     name = 'natural_frequency_hz'
     quantity = area(name)
     set ylabel 'P-box area, {/:Italic ω}_n (Hz)' offset 0.5, 0
-    set yrange [0.0012:0.08]
+    set yrange [0.0006:0.08]
     set ytics (0.001, 0.003, 0.01, 0.03) format '%g'
   }
   if (panel == 3) {
