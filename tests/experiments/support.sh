@@ -50,7 +50,7 @@ make_small_inputs() {
 small_options() {
   case $1 in
     evaluate_model) echo --points points.csv; return ;;
-    benchmark_problems) printf -- '--problem banana ' ;;
+    benchmark_problems) printf -- '--rigs 1 --problem banana --evaluations 2000 ' ;;
     cost_accuracy) printf -- '--family resampling ' ;;
     exact_posterior)
       echo --runs-input data/generated/sampling_study_runs.csv --samples-input data/generated/sampling_study_samples.csv
