@@ -342,7 +342,9 @@ TEST_CASE("eight requests are on their way at a time", "[models][um_bridge]") {
     const int now = ++running;
     for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int waited = 0; most < 8 && waited < 1000; ++waited) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     --running;
     TestServer::answer_sum(request, r);
   };
