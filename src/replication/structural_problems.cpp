@@ -15,7 +15,7 @@ using detail::by_rows;
 using detail::log_normal_density;
 using Panel = boost::math::quadrature::gauss<double, 30>;
 
-constexpr int rigs_seen = 3;  // while the settings of the independent draws were chosen
+constexpr int rigs_seen = 3;                  // while the settings of the independent draws were chosen
 constexpr double frame_mass_1 = 16.5e3;       // kg
 constexpr double frame_mass_2 = 16.1e3;       // kg
 constexpr double nominal_stiffness = 29.7e6;  // N/m
