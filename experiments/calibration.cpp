@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <numeric>
 
 #include "inputs.hpp"
 #include "replication/verdict.hpp"
@@ -17,6 +19,8 @@ using namespace experiments;
 
 namespace {
 
+/// Of a Normal distribution function at all 19 inner edges of 20 bins, with a probability of 99 % or more (Bonferroni).
+constexpr double deviations_of_band = 3.47;
 constexpr double level = 0.01;  // of the twelve tests of a sampler together (Holm)
 
 }  // namespace
@@ -58,8 +62,8 @@ int main(int argc, char** argv) {
     auto csv = open_csv(output, {"sampler", "parameter", "chi_squared", "coverage_50", "coverage_90",
                                  "p_chi_squared", "p_coverage_50", "p_coverage_90", "smallest_p_holm",
                                  "calibrated", "replications", "unfinished"});
-    auto ranks_csv = open_csv(
-        ranks_output, {"sampler", "parameter", "place", "count", "expected", "band_low", "band_high"});
+    auto ranks_csv = open_csv(ranks_output, {"sampler", "parameter", "place", "count", "expected", "band_low",
+                                             "band_high", "edge", "ecdf_difference", "ecdf_band"});
     const double n = static_cast<double>(options.replications);
     const double bins = static_cast<double>(options.bins);
     const boost::math::binomial in_bin(n, 1.0 / bins);
@@ -97,9 +101,14 @@ int main(int argc, char** argv) {
         csv.row(arm.name, parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90,
                 digits(h.p_chi_squared, 4), digits(h.p_coverage_50, 4), digits(h.p_coverage_90, 4),
                 digits(smallest, 4), verdict, options.replications, result.unfinished);
+        const double ranked = std::accumulate(h.counts.begin(), h.counts.end(), 0.0);
+        double below = 0.0;
         for (std::size_t b = 0; ranks_csv && b < h.counts.size(); ++b) {
+          below += static_cast<double>(h.counts[b]);
+          const double edge = (static_cast<double>(b) + 1.0) / bins;
           ranks_csv->row(arm.name, parameter_columns[j], (static_cast<double>(b) + 0.5) / bins, h.counts[b],
-                         n / bins, band_low, band_high);
+                         n / bins, band_low, band_high, edge, below / ranked - edge,
+                         deviations_of_band * std::sqrt(edge * (1.0 - edge) / ranked));
         }
       }
       report("{:<12} smallest p after Holm {:.2g}: calibrated {}; {} of {} runs ended before beta = 1\n",

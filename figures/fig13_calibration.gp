@@ -16,14 +16,7 @@ system_name(s) = strstrt(s, ' ') ? s[1:strstrt(s, ' ') - 1].'_'.system_name(s[st
 plain(s) = strstrt(s, '_') ? s[1:strstrt(s, '_') - 1].' '.plain(s[strstrt(s, '_') + 1:]) : s
 
 panels = words(samplers)
-# One parameter's counts add up to the data sets.
-array data_sets_of[panels]
-do for [k = 1:panels] {
-  stats ranks using (is(word(samplers, k), word(names, 1)) ? column('count') : NaN) nooutput name 'total'
-  data_sets_of[k] = total_sum
-}
 set xrange [0:1]
-set samples 201
 set yrange [-0.048:0.048]
 set xtics 0.25 format '%g'
 set ytics 0.02
@@ -38,14 +31,9 @@ do for [k = 1:panels] {
   if (k == 1) { set ylabel 'ECDF of the rank − uniform' offset 0.8, 0; set format y '%.2f' } else { unset ylabel; set format y '' }
   set xlabel 'Rank of the truth' offset 0, 0.4
   set label 1 sprintf('(%s) %s', 'abcd'[k:k], plain(sampler)) at graph 0, 1.05 left font 'Nimbus Sans:Bold,8.5' front
-  band = 3.47 / sqrt(data_sets_of[k])
-  half(u) = band * sqrt(u * (1 - u))
-  array sums[4] = [0, 0, 0, 0]
-  difference(i) = (sums[i] = sums[i] + column('count'), sums[i] / data_sets_of[k] - column('place') - 0.025)
-  plot '+' using 1:(-half($1)):(half($1)) with filledcurves fc rgb '#E4E4E4' fs solid noborder, \
+  plot ranks using 'edge':(is(sampler, word(names, 1)) ? -column('ecdf_band') : NaN):'ecdf_band' with filledcurves fc rgb '#E4E4E4' fs solid noborder, \
        0 with lines ls BOUNDARY lw 0.8, \
-       for [i = 1:4] ranks using (is(sampler, word(names, i)) ? column('place') + 0.025 : NaN): \
-           (is(sampler, word(names, i)) ? difference(i) : NaN) with lines lw 1.3 lc rgb word(colours, i) dt i \
+       for [i = 1:4] ranks using 'edge':(is(sampler, word(names, i)) ? column('ecdf_difference') : NaN) with lines lw 1.3 lc rgb word(colours, i) dt i \
            title word(titles, i), \
        keyentry with boxes fc rgb '#E4E4E4' fs solid noborder title '99 % band'
   unset key

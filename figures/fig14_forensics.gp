@@ -6,16 +6,14 @@ height = 8.6
 load 'figures/style.gp'
 
 pairs = data.'/forensics_pairs.csv'
-stats pairs using 'row' nooutput name 'rows'
-last = rows_max
 shown(x) = x <= -100 ? '' : sprintf('%d', floor(x + 0.5))
 
 set lmargin at screen 0.335
 set rmargin at screen 0.985
 set tmargin at screen 0.985
 set bmargin at screen 0.325
-set xrange [-0.5:last + 0.5]
-set yrange [last + 0.5:-0.5]
+set autoscale fix
+set yrange [*:*] reverse
 set cbrange [-20:6]
 set palette defined (-20 '#F2F2F2', -8 '#D8D8D8', 0 '#FFFFFF', 2 '#9CCBE6', 6 '#2F86BE')
 unset colorbox
