@@ -90,14 +90,9 @@ int main(int argc, char** argv) {
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
 
-    std::vector<std::string> sample_columns = {"sampler", "run"};
-    sample_columns.insert(sample_columns.end(), parameter_columns.begin(), parameter_columns.end());
-    auto samples_csv = open_csv(output, sample_columns);
+    auto samples_csv = open_csv(output, replication::sample_columns());
     auto runs_csv = open_csv(runs_output, replication::run_columns(sampler.diagnose));
-    auto stages_csv =
-        open_csv(stages_output, {"sampler", "run", "stage", "beta", "step", "effective_sample_size",
-                                 "coefficient_of_variation", "acceptance_rate", "log_evidence_increment",
-                                 "feasible", "distinct_ancestors", "evaluations", "redraws"});
+    auto stages_csv = open_csv(stages_output, replication::stage_columns());
 
     report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
            reading.sampler.samples, options.seed, physics.reading_name, observations.size());
@@ -109,21 +104,14 @@ int main(int argc, char** argv) {
     }
     for (std::size_t a = 0; a < arms.size(); ++a) {
       for (std::size_t i = 0; i < results[a].size(); ++i) {
-        const auto& run = results[a][i];
-        const auto& points = run.result.final.points;
-        for (Eigen::Index row = 0; samples_csv && row < points.rows(); ++row) {
-          samples_csv->row(arms[a].name, i, points(row, 0), points(row, 1), points(row, 2), points(row, 3));
+        if (samples_csv) {
+          replication::write_samples(*samples_csv, arms[a].name, i, results[a][i]);
         }
         if (runs_csv) {
-          const auto diagnosed = sampler.diagnose ? replication::diagnosed_cells(run) : std::vector<double>();
-          runs_csv->row(arms[a].name, i, run.iterations(), run.result.final.log_evidence,
-                        run.result.final.evaluations, tmcmc::as_span(run.mean),
-                        tmcmc::as_span(run.standard_deviation), diagnosed);
+          replication::write_run(*runs_csv, arms[a].name, i, results[a][i], sampler.diagnose);
         }
-        for (const auto& s : run.result.stages) {
-          stages_csv.row(arms[a].name, i, s.stage, s.beta, s.step, s.effective_sample_size,
-                         s.coefficient_of_variation, s.acceptance_rate, s.log_evidence_increment, s.feasible,
-                         s.distinct_ancestors, s.evaluations, s.redraws);
+        if (stages_csv) {
+          replication::write_stages(*stages_csv, arms[a].name, i, results[a][i]);
         }
       }
       report_arm(report, arms[a], results[a], options.threads);

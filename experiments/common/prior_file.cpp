@@ -152,11 +152,11 @@ tmcmc::Correlation read_correlations(const std::string& path,
   const auto& columns = table.column_names();
   const std::string first = columns.front();
   if (first != "parameter" && first != "normal_score") {
-    throw io::InputError(
-        {.path = path,
-         .line = 1,
-         .found = fmt::format("header '{}'", io::printable(fmt::format("{}", fmt::join(columns, ",")), 200)),
-         .expected = "a column 'parameter' first, or for correlations of normal scores 'normal_score'"});
+    throw io::InputError(io::InputFault{
+        .path = path,
+        .line = 1,
+        .found = fmt::format("header '{}'", io::printable(fmt::format("{}", fmt::join(columns, ",")), 200)),
+        .expected = "a column 'parameter' first, or for correlations of normal scores 'normal_score'"});
   }
   for (std::size_t c = 1; c < columns.size(); ++c) {
     if (place_of(names, columns[c]) == names.size()) {
@@ -189,10 +189,11 @@ tmcmc::Correlation read_correlations(const std::string& path,
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (line[i] == names.size() || !table.has(names[i])) {
-      throw io::InputError({.path = path,
-                            .column = "'" + first + "'",
-                            .found = "no row and column '" + names[i] + "'",
-                            .expected = fmt::format("one for each of {}", fmt::join(names, ", "))});
+      throw io::InputError(
+          io::InputFault{.path = path,
+                         .column = "'" + first + "'",
+                         .found = "no row and column '" + names[i] + "'",
+                         .expected = fmt::format("one for each of {}", fmt::join(names, ", "))});
     }
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -259,10 +260,11 @@ tmcmc::Prior read_prior(const PriorFiles& files, const ParameterRules& rules) {
   std::vector<tmcmc::Parameter> parameters;
   for (std::size_t j = 0; j < found.size(); ++j) {
     if (!found[j]) {
-      throw io::InputError({.path = files.marginals,
-                            .column = "'parameter'",
-                            .found = fmt::format("no row '{}'", rules.names[j]),
-                            .expected = fmt::format("one row for each of {}", fmt::join(rules.names, ", "))});
+      throw io::InputError(
+          io::InputFault{.path = files.marginals,
+                         .column = "'parameter'",
+                         .found = fmt::format("no row '{}'", rules.names[j]),
+                         .expected = fmt::format("one row for each of {}", fmt::join(rules.names, ", "))});
     }
     parameters.push_back(*found[j]);
   }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "errors/invalid_value.hpp"
 #include "portable_math/elementary.hpp"
@@ -40,12 +41,17 @@ void validate(double frequency_ratio, double force_ratio, const TimeIntegrationO
 
 class Motion {
  public:
-  Motion(double r, double phi, double x, double velocity, const TimeIntegrationOptions& options)
+  /// \param trace  takes the points of the motion; null: none
+  Motion(double r, double phi, double x, double velocity, const TimeIntegrationOptions& options,
+         std::vector<MotionPoint>* trace = nullptr)
       : r_(r),
         phi_(phi),
         tolerance_(options.event_tolerance),
         nominal_step_(2.0 * pi * std::min(1.0, r) / options.steps_per_period),
-        state_{x, velocity, 0.0, 0.0} {}
+        state_{x, velocity, 0.0, 0.0},
+        trace_(trace) {
+    note(false);
+  }
 
   HalfPeriod to_half_period() {
     double sign = state_[1] > 0.0 ? 1.0 : -1.0;
@@ -67,6 +73,10 @@ class Motion {
   /// r^2 x'' while sliding in the direction of sign.
   [[nodiscard]] double force(double tau, const State& state, double sign) const {
     return portable_math::cos(tau) - state[0] - sign * phi_;
+  }
+
+  void note(bool sticks) {
+    if (trace_ != nullptr) trace_->push_back({tau_, state_[0], sticks});
   }
 
   [[nodiscard]] State stepped(double sign, double length) {
@@ -135,6 +145,7 @@ class Motion {
       }
       state_ = end;
       tau_ = tau_end;
+      note(false);
     }
     result_.path += std::fabs(state_[0] - x_start);
     rotate_derivative((tau_ - tau_start) / r_);
@@ -167,7 +178,9 @@ class Motion {
     const auto to = sin_cos(until);
     state_[2] += state_[0] * (to.sin - from.sin);
     state_[3] += state_[0] * (from.cos - to.cos);
+    if (trace_ != nullptr) trace_->back().sticks = until > tau_;
     tau_ = until;
+    note(false);
   }
 
   void rotate_derivative(double angle) {
@@ -185,6 +198,7 @@ class Motion {
   double r_, phi_, tolerance_, nominal_step_;
   double tau_ = 0.0;
   State state_;
+  std::vector<MotionPoint>* trace_;
   HalfPeriod result_{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, {1.0, 0.0, 0.0, 1.0}};
   boost::numeric::odeint::runge_kutta_fehlberg78<State> stepper_;
 };
@@ -256,6 +270,16 @@ HalfPeriod integrate_half_period(double frequency_ratio, double force_ratio, dou
   require(std::isfinite(x), "x", x, "a finite number");
   require(std::isfinite(velocity), "velocity", velocity, "a finite number");
   return Motion(frequency_ratio, force_ratio, x, velocity, options).to_half_period();
+}
+
+std::vector<MotionPoint> trace_half_period(double frequency_ratio, double force_ratio, double x,
+                                           double velocity, const TimeIntegrationOptions& options) {
+  validate(frequency_ratio, force_ratio, options);
+  require(std::isfinite(x), "x", x, "a finite number");
+  require(std::isfinite(velocity), "velocity", velocity, "a finite number");
+  std::vector<MotionPoint> trace;
+  static_cast<void>(Motion(frequency_ratio, force_ratio, x, velocity, options, &trace).to_half_period());
+  return trace;
 }
 
 SteadyResponse integrate_steady_response(double frequency_ratio, double force_ratio,

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 namespace friction {
 
@@ -49,6 +50,19 @@ struct HalfPeriod {
 /// \throws errors::InvalidValue for arguments or options out of range.
 [[nodiscard]] HalfPeriod integrate_half_period(double frequency_ratio, double force_ratio, double x,
                                                double velocity, const TimeIntegrationOptions& options = {});
+
+/// A point of a motion.
+struct MotionPoint {
+  double tau;   ///< rad
+  double x;     ///< displacement
+  bool sticks;  ///< whether the mass sticks from here to the next point
+};
+
+/// The motion of integrate_half_period as points, from tau = 0 to tau = pi, the ends of its steps and of its sticking.
+/// \throws as integrate_half_period.
+[[nodiscard]] std::vector<MotionPoint> trace_half_period(double frequency_ratio, double force_ratio, double x,
+                                                         double velocity,
+                                                         const TimeIntegrationOptions& options = {});
 
 /// How the search for the steady response ended.
 enum class SteadyState {

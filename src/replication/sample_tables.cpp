@@ -131,6 +131,50 @@ std::vector<double> diagnosed_cells(const Run& run) {
   return cells;
 }
 
+std::vector<std::string> sample_columns() {
+  std::vector<std::string> columns = {"sampler", "run"};
+  columns.insert(columns.end(), parameter_columns.begin(), parameter_columns.end());
+  return columns;
+}
+
+std::vector<std::string> stage_columns() {
+  return {"sampler",
+          "run",
+          "stage",
+          "beta",
+          "step",
+          "effective_sample_size",
+          "coefficient_of_variation",
+          "acceptance_rate",
+          "log_evidence_increment",
+          "feasible",
+          "distinct_ancestors",
+          "evaluations",
+          "redraws"};
+}
+
+void write_samples(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run) {
+  const auto& points = run.result.final.points;
+  for (Eigen::Index row = 0; row < points.rows(); ++row) {
+    table.row(sampler, index, points(row, 0), points(row, 1), points(row, 2), points(row, 3));
+  }
+}
+
+void write_run(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run,
+               bool diagnosed) {
+  table.row(sampler, index, run.iterations(), run.result.final.log_evidence, run.result.final.evaluations,
+            tmcmc::as_span(run.mean), tmcmc::as_span(run.standard_deviation),
+            diagnosed ? diagnosed_cells(run) : std::vector<double>());
+}
+
+void write_stages(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run) {
+  for (const auto& s : run.result.stages) {
+    table.row(sampler, index, s.stage, s.beta, s.step, s.effective_sample_size, s.coefficient_of_variation,
+              s.acceptance_rate, s.log_evidence_increment, s.feasible, s.distinct_ancestors, s.evaluations,
+              s.redraws);
+  }
+}
+
 Diagnoses diagnoses_of(const std::vector<Run>& runs) {
   Diagnoses all{{}, 0.0, std::numeric_limits<double>::infinity(), {}};
   std::vector<double> evidence;

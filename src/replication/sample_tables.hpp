@@ -48,6 +48,20 @@ struct GroupedColumns {
 /// The cells of a run in the columns that diagnosed adds.
 [[nodiscard]] std::vector<double> diagnosed_cells(const Run& run);
 
+/// Columns of the samples of a study, and of the stages of its runs.
+[[nodiscard]] std::vector<std::string> sample_columns();
+/// See sample_columns.
+[[nodiscard]] std::vector<std::string> stage_columns();
+
+/// The samples of a run as rows of a table with sample_columns().
+/// \throws as io::CsvWriter::row, as the two below.
+void write_samples(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run);
+/// A run as a row of a table with run_columns(diagnosed).
+void write_run(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run,
+               bool diagnosed);
+/// The stages of a run as rows of a table with stage_columns().
+void write_stages(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run);
+
 /// What the runs of one sampler say of themselves.
 struct Diagnoses {
   /// By bridge sampling, over the runs.

@@ -27,6 +27,33 @@ void StudyOptions::validate() const {
   }
 }
 
+Run run_one(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
+            const StudyOptions& options, tmcmc::Index index, const tmcmc::Observer& observer) {
+  Run run;
+  const tmcmc::StreamKey key{options.seed, options.study, arm_index, static_cast<std::uint32_t>(index)};
+  try {
+    run.result = tmcmc::run(problem, arm.options, key, observer);
+    if (run.result.stop != tmcmc::StopReason::completed) {
+      throw tmcmc::SamplingError("ended at beta = " + std::to_string(run.result.final.beta) + " after " +
+                                 std::to_string(run.iterations()) +
+                                 " stages: " + tmcmc::describe(run.result.stop));
+    }
+  } catch (const tmcmc::InfeasiblePriorError& error) {
+    throw tmcmc::InfeasiblePriorError(name_run(arm, index) + error.what());
+  } catch (const tmcmc::SamplingError& error) {
+    throw tmcmc::SamplingError(name_run(arm, index) + error.what());
+  }
+  const auto& points = run.result.final.points;
+  run.mean.resize(points.cols());
+  run.standard_deviation.resize(points.cols());
+  for (tmcmc::Index j = 0; j < points.cols(); ++j) {
+    const Moments m = moments({points.col(j).data(), static_cast<std::size_t>(points.rows())});
+    run.mean[j] = m.mean;
+    run.standard_deviation[j] = m.standard_deviation;
+  }
+  return run;
+}
+
 std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
                          const StudyOptions& options, const RunObserver& observer) {
   options.validate();
@@ -34,28 +61,7 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
   std::vector<Run> runs(static_cast<std::size_t>(options.runs));
   tmcmc::for_each_block(
       options.runs, 1, options.threads, [&](tmcmc::Index index, tmcmc::Index, tmcmc::Index) {
-        Run& run = runs[static_cast<std::size_t>(index)];
-        const tmcmc::StreamKey key{options.seed, options.study, arm_index, static_cast<std::uint32_t>(index)};
-        try {
-          run.result = tmcmc::run(problem, arm.options, key);
-          if (run.result.stop != tmcmc::StopReason::completed) {
-            throw tmcmc::SamplingError("ended at beta = " + std::to_string(run.result.final.beta) +
-                                       " after " + std::to_string(run.iterations()) +
-                                       " stages: " + tmcmc::describe(run.result.stop));
-          }
-        } catch (const tmcmc::InfeasiblePriorError& error) {
-          throw tmcmc::InfeasiblePriorError(name_run(arm, index) + error.what());
-        } catch (const tmcmc::SamplingError& error) {
-          throw tmcmc::SamplingError(name_run(arm, index) + error.what());
-        }
-        const auto& points = run.result.final.points;
-        run.mean.resize(points.cols());
-        run.standard_deviation.resize(points.cols());
-        for (tmcmc::Index j = 0; j < points.cols(); ++j) {
-          const Moments m = moments({points.col(j).data(), static_cast<std::size_t>(points.rows())});
-          run.mean[j] = m.mean;
-          run.standard_deviation[j] = m.standard_deviation;
-        }
+        runs[static_cast<std::size_t>(index)] = run_one(problem, arm, arm_index, options, index);
         if (observer) {
           observer();
         }

@@ -37,6 +37,13 @@ struct Run {
 /// Called once after each run, possibly from several threads at a time.
 using RunObserver = std::function<void()>;
 
+/// One run of a study: `index` of the stream (seed, study, arm_index, index).
+/// \param observer  of the run's populations, see tmcmc::run
+/// \throws as run_arm.
+[[nodiscard]] Run run_one(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
+                          const StudyOptions& options, tmcmc::Index index,
+                          const tmcmc::Observer& observer = {});
+
 /// R runs of one sampler; run i uses the stream (seed, study, arm, i).
 /// \throws tmcmc::SamplingError naming sampler and run if a run fails or ends before beta = 1.
 [[nodiscard]] std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
