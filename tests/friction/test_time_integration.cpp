@@ -111,6 +111,40 @@ TEST_CASE("continuous motion agrees with Den Hartog's solution", "[friction][tim
   }
 }
 
+TEST_CASE("the trace of a half-period is the motion that the half-period integrates",
+          "[friction][time_integration]") {
+  for (const double share : {0.5, 1.2}) {  // of the limit of continuous motion: sliding, and with stops
+    const double r = 0.6;
+    const auto c = friction::response_constants(r, {});
+    const double phi = share * c.limit_force_ratio;
+    const SteadyResponse s = friction::integrate_steady_response(r, phi);
+    REQUIRE(s.state == SteadyState::periodic);
+    const auto half = friction::integrate_half_period(r, phi, s.x, s.velocity);
+    const auto trace = friction::trace_half_period(r, phi, s.x, s.velocity);
+    INFO("phi = " << phi);
+    REQUIRE(trace.size() > 10);
+    CHECK(trace.front().tau == 0.0);
+    CHECK(trace.front().x == s.x);
+    CHECK(trace.back().tau == pi);
+    CHECK(trace.back().x == half.x);
+    double sticking = 0.0;
+    for (std::size_t i = 1; i < trace.size(); ++i) {
+      CHECK(trace[i].tau >= trace[i - 1].tau);
+      if (trace[i - 1].sticks) {
+        sticking += trace[i].tau - trace[i - 1].tau;
+        CHECK(trace[i].x == trace[i - 1].x);
+      }
+      if (s.continuous) {
+        // Eq. 15 puts its maximum at 0 and the forcing at cos(tau + eta).
+        const double tau = std::fmod(4.0 * pi + trace[i].tau - friction::base_phase(c, phi), 2.0 * pi);
+        CHECK_THAT(trace[i].x, WithinAbs(friction::response(c, phi, tau), 1e-8));
+      }
+    }
+    CHECK(s.continuous == (share < 1.0));
+    CHECK_THAT(sticking, WithinAbs(half.sticking_time, 1e-12));
+  }
+}
+
 TEST_CASE("without friction the response is that of the linear oscillator", "[friction][time_integration]") {
   for (const double r : {0.01, 0.3, 0.35, 0.644, 0.954, 0.999, 1.001, 1.065, 2.5, 100.0}) {
     for (const double phi : {0.0, 1e-9}) {
