@@ -9,7 +9,6 @@
 #include "replication/study.hpp"
 #include "replication/synthetic.hpp"
 #include "tmcmc/detail/stage.hpp"
-#include "tmcmc/independent_draws.hpp"
 
 namespace {
 
@@ -234,11 +233,11 @@ BENCHMARK(one_run_with_prior)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
 /// TMCMC's posterior by independent draws from a fitted density.
 void one_run_with_independent_draws(benchmark::State& state) {
   const Setting s;
-  const tmcmc::IndependentDraws settings{.evaluations = state.range(0)};
+  auto options = tmcmc::recommended_options(state.range(0));
+  options.finish = tmcmc::IndependentDraws{};
   std::uint32_t run = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        tmcmc::run_with_independent_draws(s.problem, settings, {.seed = 1, .run = run++}));
+    benchmark::DoNotOptimize(tmcmc::run(s.problem, options, {.seed = 1, .run = run++}));
   }
   per_item(state, static_cast<double>(state.range(0)));
 }

@@ -7,8 +7,7 @@
 #include "errors/invalid_value.hpp"
 #include "portable_math/sums.hpp"
 #include "statistics/summary.hpp"
-#include "tmcmc/parallel.hpp"
-#include "tmcmc/resampling.hpp"
+#include "tmcmc/weighted_samples.hpp"
 
 namespace replication {
 
@@ -24,51 +23,34 @@ double sum_of(const Eigen::ArrayXd& values) {
 
 constexpr tmcmc::Index resampled_points = 1000;  // as the paper's runs have
 
-Run run_of(const tmcmc::MeasuredPosterior& measured, const tmcmc::StreamKey& key) {
-  std::vector<tmcmc::Index> rows(static_cast<std::size_t>(resampled_points));
-  tmcmc::resample(tmcmc::Resampling::multinomial, tmcmc::as_span(measured.weights), key, 0, rows);
-  Run run;
-  tmcmc::State& state = run.result.final;
-  state.points.resize(resampled_points, measured.points.cols());
-  for (tmcmc::Index i = 0; i < resampled_points; ++i) {
-    state.points.row(i) = measured.points.row(rows[static_cast<std::size_t>(i)]);
-  }
-  state.beta = 1.0;
-  state.log_evidence = measured.evidence.log_evidence;
-  state.evaluations = measured.evaluations;
-  run.result.evidence = measured.evidence;
-  const tmcmc::Index d = measured.points.cols();
-  run.result.diagnostics.effective_sample_size = Eigen::VectorXd::Constant(d, measured.effective_sample_size);
-  for (const auto& warning : measured.warnings) {  // whose kinds nothing here asks for
-    run.result.diagnostics.warnings.push_back({tmcmc::WarningKind::uncertain_evidence, warning.message});
-  }
-  run.mean.resize(d);
-  run.standard_deviation.resize(d);
-  const auto n = static_cast<double>(measured.points.rows());
-  for (tmcmc::Index j = 0; j < d; ++j) {
-    const auto column = measured.points.col(j).array();
-    const double mean = sum_of(column * measured.weights.array()) / n;
+/// Weighted samples become equally weighted ones; the moments are those of all weighted samples.
+void resample_points(Run& run, const tmcmc::StreamKey& key) {
+  tmcmc::Result& result = run.result;
+  const tmcmc::Population points = std::move(result.final.points);
+  const auto n = static_cast<double>(points.rows());
+  for (tmcmc::Index j = 0; j < points.cols(); ++j) {
+    const auto column = points.col(j).array();
+    const double mean = sum_of(column * result.weights.array()) / n;
     run.mean[j] = mean;
-    run.standard_deviation[j] = std::sqrt(sum_of((column - mean).square() * measured.weights.array()) / n);
+    run.standard_deviation[j] = std::sqrt(sum_of((column - mean).square() * result.weights.array()) / n);
   }
-  return run;
+  result.final.points = points;
+  result.final.points =
+      tmcmc::equally_weighted(result, resampled_points, key, tmcmc::Resampling::multinomial);
+  result.weights.setOnes(resampled_points);
 }
 
 }  // namespace
 
 std::vector<Run> run_configuration(const tmcmc::Problem& problem, const Configuration& configuration,
                                    std::uint32_t arm_index, const StudyOptions& options) {
-  if (!configuration.draws) {
-    return run_arm(problem, {configuration.family + " " + configuration.value, configuration.options},
-                   arm_index, options);
+  auto runs = run_arm(problem, {configuration.family + " " + configuration.value, configuration.options},
+                      arm_index, options);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].result.measurement) {
+      resample_points(runs[i], {options.seed, options.study, arm_index, static_cast<std::uint32_t>(i)});
+    }
   }
-  options.validate();
-  std::vector<Run> runs(static_cast<std::size_t>(options.runs));
-  tmcmc::for_each_block(options.runs, 1, options.threads, [&](tmcmc::Index i, tmcmc::Index, tmcmc::Index) {
-    const tmcmc::StreamKey key{options.seed, options.study, arm_index, static_cast<std::uint32_t>(i)};
-    runs[static_cast<std::size_t>(i)] =
-        run_of(tmcmc::run_with_independent_draws(problem, *configuration.draws, key), key);
-  });
   return runs;
 }
 
@@ -169,14 +151,18 @@ std::vector<Configuration> configurations(const tmcmc::Options& published) {
     list.push_back(
         {"recommended", std::to_string(budget) + " evaluations", tmcmc::recommended_options(budget)});
   }
+  const auto by_draws = [](tmcmc::Index budget, const tmcmc::Criterion& criterion) {
+    tmcmc::Options options = tmcmc::recommended_options(budget);
+    options.criterion = criterion;
+    options.finish = tmcmc::IndependentDraws{};
+    return options;
+  };
   for (const tmcmc::Index budget : {4000, 8000, 16000, 31000}) {
-    list.push_back(
-        {"independent", std::to_string(budget) + " evaluations", start, {{.evaluations = budget}}});
+    list.push_back({"independent", std::to_string(budget) + " evaluations",
+                    by_draws(budget, tmcmc::effective_sample_size_rule(0.5))});
   }
-  list.push_back({"independent",
-                  "31000 evaluations, CoV = 1",
-                  start,
-                  {{.evaluations = 31000, .criterion = tmcmc::coefficient_of_variation_rule(1.0)}}});
+  list.push_back({"independent", "31000 evaluations, CoV = 1",
+                  by_draws(31000, tmcmc::coefficient_of_variation_rule(1.0))});
   for (Configuration& configuration : list) {
     configuration.options.infeasible_level = published.infeasible_level;
   }

@@ -2,11 +2,9 @@
 /// The accuracy of a sampler over many runs, against a posterior that is known.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "replication/study.hpp"
-#include "tmcmc/independent_draws.hpp"
 
 namespace replication {
 
@@ -42,14 +40,12 @@ struct Configuration {
   std::string family;      ///< what is varied
   std::string value;       ///< to what
   tmcmc::Options options;  ///< complete options of the sampler
-  /// Where it is set, the posterior is measured by independent draws in place of the options.
-  std::optional<tmcmc::IndependentDraws> draws = {};
 };
 
 /// R runs of a configuration, as run_arm(). With independent draws, the samples of a run are 1000 points that are drawn from the
 /// weighted ones (multinomial resampling: their p-box has the area of independent draws and no less), its moments those of all
 /// weighted draws.
-/// \throws as run_arm and tmcmc::run_with_independent_draws.
+/// \throws as run_arm.
 [[nodiscard]] std::vector<Run> run_configuration(const tmcmc::Problem& problem,
                                                  const Configuration& configuration, std::uint32_t arm_index,
                                                  const StudyOptions& options);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "errors/invalid_value.hpp"
-#include "tmcmc/independent_draws.hpp"
 #include "tmcmc/parallel.hpp"
+#include "tmcmc/sampler.hpp"
 
 namespace replication {
 
@@ -34,6 +34,9 @@ tmcmc::Options options_of(const BenchmarkProblem& problem, BenchmarkSampler samp
   } else {
     options = tmcmc::recommended_options(evaluations);
   }
+  if (sampler == BenchmarkSampler::independent_draws) {
+    options.finish = tmcmc::IndependentDraws{};
+  }
   options.infeasible_level = problem.infeasible_level;
   return options;
 }
@@ -42,24 +45,14 @@ BenchmarkRun one_run(const BenchmarkProblem& problem, BenchmarkSampler sampler, 
                      const tmcmc::StreamKey& key) {
   BenchmarkRun run;
   try {
-    if (sampler == BenchmarkSampler::independent_draws) {
-      const auto measured =
-          tmcmc::run_with_independent_draws(problem.problem, {.evaluations = evaluations}, key);
-      run.error = measured.evidence.log_evidence - problem.log_evidence;
-      run.standard_error = measured.evidence.standard_error;
-      run.effective_draws = measured.effective_sample_size;
-      run.warned = !measured.warnings.empty();
-      run.worst_mode_mass = worst_mode_mass(problem, measured.points, measured.weights);
-    } else {
-      const auto result = tmcmc::run(problem.problem, options_of(problem, sampler, evaluations), key);
-      run.error = result.evidence.log_evidence - problem.log_evidence;
-      run.standard_error = result.evidence.standard_error;
-      run.effective_draws = result.diagnostics.effective_sample_size.minCoeff();
-      run.warned = !result.diagnostics.warnings.empty();
-      run.finished = result.stop == tmcmc::StopReason::completed;
-      run.worst_mode_mass =
-          worst_mode_mass(problem, result.final.points, Eigen::VectorXd::Ones(result.final.points.rows()));
-    }
+    const auto result = tmcmc::run(problem.problem, options_of(problem, sampler, evaluations), key);
+    run.error = result.evidence.log_evidence - problem.log_evidence;
+    run.standard_error = result.evidence.standard_error;
+    run.effective_draws = result.measurement ? result.measurement->effective_sample_size
+                                             : result.diagnostics.effective_sample_size.minCoeff();
+    run.warned = !result.diagnostics.warnings.empty();
+    run.finished = result.stop == tmcmc::StopReason::completed;
+    run.worst_mode_mass = worst_mode_mass(problem, result.final.points, result.weights);
   } catch (const tmcmc::SamplingError&) {
     run.finished = false;
     run.warned = true;

@@ -45,10 +45,17 @@ void Options::validate() const {
   require(!grows || !std::holds_alternative<TargetAcceptance>(scale_rule), "scale_rule", *this,
           "another rule with growing chains");
   require(!grows || !cross_fit, "cross_fit", *this, "no with growing chains");
+  require(!grows || std::holds_alternative<NoFinish>(finish), "finish", *this, "none with growing chains");
   if (evaluation_budget > 0) {
     require(evaluation_budget > samples, "evaluation_budget", *this,
             "more than the number of samples, " + std::to_string(samples));
     require(!grows, "evaluation_budget", *this, "0 with growing chains");
+  }
+  if (const auto* draws = std::get_if<IndependentDraws>(&finish)) {
+    require(evaluation_budget >= fewest_evaluations_of_independent_draws, "evaluation_budget", *this,
+            "at least " + std::to_string(fewest_evaluations_of_independent_draws) +
+                " with the finish independent");
+    require(draws->fit.degrees_of_freedom % 2 == 0, "mixture_degrees_of_freedom", *this, "an even number");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "tmcmc/finish.hpp"
 #include "tmcmc/move.hpp"
 #include "tmcmc/proposal_options.hpp"
 #include "tmcmc/resampling.hpp"
@@ -48,6 +49,8 @@ struct Options {
   /// upper bound for the others. A run whose budget does not hold one step of each chain ends with
   /// StopReason::budget. Not for growing chains.
   Index evaluation_budget = 0;
+  /// What measures the posterior. IndependentDraws use evaluation_budget up, at least 2000.
+  Finish finish;
   /// Bridge estimate of the log-evidence with its error, effective sample sizes and warnings
   /// (Result::evidence and Result::diagnostics).
   bool diagnose = true;
@@ -93,6 +96,7 @@ void visit_options(AnyOptions& options, Visit&& visit) {
   visit({"evaluation_budget", beyond_the_paper, whole_from(0, 1e15),
          "Most log-likelihoods of a run; 0: no limit"},
         &options.evaluation_budget);
+  visit_finish_options(options.finish, visit);
   visit({"diagnose", computation, named(), "Error of the log-evidence, effective sample sizes, warnings"},
         &options.diagnose);
   visit({.name = "threads",

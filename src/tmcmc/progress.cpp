@@ -35,7 +35,8 @@ void require_points(const State& state, const Prior& prior, const Options& optio
   require(state.points.cols() == prior.dimension(), "state.points",
           "one column for each of the " + std::to_string(prior.dimension()) + " parameters, not " +
               std::to_string(state.points.cols()));
-  const bool varies = state.beta == 1.0 || (options.evaluation_budget > 0 && state.beta > 0.0);
+  const bool varies = std::holds_alternative<IndependentDraws>(options.finish) || state.beta == 1.0 ||
+                      (options.evaluation_budget > 0 && state.beta > 0.0);
   require(n >= 1 && (varies || n == options.samples), "state.points",
           std::to_string(options.samples) + " rows (options.samples), not " + std::to_string(n));
   require_size(static_cast<std::size_t>(state.log_likelihood.size()), static_cast<std::size_t>(n),
@@ -78,6 +79,13 @@ void require_valid(const Progress& progress, const Prior& prior, const Options& 
   require_size(progress.stages.size(), static_cast<std::size_t>(state.stage), "stages");
   require(state.beta == (progress.stages.empty() ? 0.0 : progress.stages.back().beta), "state.beta",
           "that of the last stage");
+  if (std::holds_alternative<IndependentDraws>(options.finish)) {
+    require(state.stage == 0 && state.evaluations <= options.evaluation_budget, "state.evaluations",
+            "at most options.evaluation_budget = " + std::to_string(options.evaluation_budget) +
+                " without a stage");
+    require_points(state, prior, options);
+    return;
+  }
   require(state.evaluations >= options.samples, "state.evaluations",
           "at least options.samples = " + std::to_string(options.samples));
   require_points(state, prior, options);

@@ -11,7 +11,9 @@
 
 namespace tmcmc {
 
-/// A run after some of its stages. `resume` goes on from here.
+/// A run after some of its stages. `resume` goes on from here. With the finish IndependentDraws: the
+/// points that have been evaluated so far, in any order, with their log-likelihoods; beta is 0 and there
+/// are no stages. `resume` then repeats the run, and takes the values of these points from here.
 struct Progress {
   /// Population at the last beta.
   State state;

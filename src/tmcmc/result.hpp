@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -124,9 +125,20 @@ enum class WarningKind {
   /// The log-likelihood rises along the chains of one stage or of all, more than chance explains:
   /// beta has crossed a transition faster than the chains reach equilibrium, and log-evidence and
   /// samples are those of no stationary chain.
-  not_in_equilibrium
+  not_in_equilibrium,
+  /// Independent draws: neither search has come near the posterior. The result is that of TMCMC on
+  /// the remaining evaluations.
+  search_not_completed,
+  /// Independent draws: the searches have missed different parts of the posterior, so that both may
+  /// have missed another.
+  searches_differ,
+  /// Independent draws: their effective number is below 500 or below a twentieth of the draws.
+  low_overlap,
+  /// Independent draws: k-hat is above min(1 - 1 / log10(n), 0.7); the error of the log-evidence is
+  /// a lower bound.
+  heavy_weights
 };
-constexpr std::array<std::string_view, 8> enumerator_names(std::type_identity<WarningKind>) {
+constexpr std::array<std::string_view, 12> enumerator_names(std::type_identity<WarningKind>) {
   return {"not completed",
           "few feasible draws",
           "few ancestors",
@@ -134,7 +146,11 @@ constexpr std::array<std::string_view, 8> enumerator_names(std::type_identity<Wa
           "low effective sample size",
           "uncertain evidence",
           "few samples for the covariance",
-          "not in equilibrium"};
+          "not in equilibrium",
+          "search not completed",
+          "searches differ",
+          "low overlap",
+          "heavy weights"};
 }
 
 /// One finding.
@@ -153,18 +169,37 @@ struct Diagnostics {
   std::vector<Warning> warnings;
 };
 
+/// What a run with the finish IndependentDraws says besides.
+struct Measurement {
+  /// (sum w)^2 / sum w^2: draws from the posterior that the weighted ones are worth.
+  double effective_sample_size = 0.0;
+  /// k-hat of the largest weights, see pareto_shape(): errors are to be believed up to 0.7.
+  double pareto_shape = 0.0;
+  /// Temperature that each search has reached.
+  std::array<double, 2> search_beta{};
+  /// Posterior mass where each search has hardly drawn.
+  std::array<double, 2> missed_mass{};
+};
+
 /// A finished run.
 struct Result {
-  /// Samples of the posterior if stop is completed.
+  /// Samples of the posterior if stop is completed. With independent draws they are weighted,
+  /// final.log_evidence is the logarithm of their mean weight, and each is a chain of its own.
   State final;
-  /// One a stage, in order.
+  /// One a sample, with a mean of 1. All are 1 unless the finish is IndependentDraws.
+  Eigen::VectorXd weights;
+  /// One a stage, in order. With independent draws: one a round of the first search, which know
+  /// stage, beta, step, effective_sample_size and evaluations.
   std::vector<StageRecord> stages;
   /// Why the run ended.
   StopReason stop = StopReason::completed;
-  /// By bridge sampling up to final.beta; final.log_evidence is the sum of log-mean weights.
+  /// By bridge sampling up to final.beta; final.log_evidence is the sum of log-mean weights. With
+  /// independent draws: the logarithm of the mean weight, and the error of independent weights.
   Evidence evidence;
   /// Empty, as is evidence, without Options::diagnose.
   Diagnostics diagnostics;
+  /// Of independent draws alone; nothing too where TMCMC took over from the searches.
+  std::optional<Measurement> measurement;
 };
 
 }  // namespace tmcmc

@@ -8,6 +8,7 @@
 
 #include "errors/invalid_value.hpp"
 #include "tmcmc/detail/budget.hpp"
+#include "tmcmc/detail/finish.hpp"
 #include "tmcmc/detail/stage.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/parallel.hpp"
@@ -21,6 +22,16 @@ void require_valid(const Options& options, const StreamKey& key) {
   if (key.arm >= (1U << 24U)) {
     throw errors::InvalidValue("key.arm", key.arm, "a number below 2^24");
   }
+}
+
+bool is_by_independent_draws(const Options& options, const StepRule& rule) {
+  if (!std::holds_alternative<IndependentDraws>(options.finish)) {
+    return false;
+  }
+  if (rule) {
+    throw errors::InvalidValue("options.finish", "independent", "none with a step rule of one's own");
+  }
+  return true;
 }
 
 TemperingStep next_step(const Options& options, const StepRule& rule, const State& state) {
@@ -83,6 +94,9 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
               const Observer& observer, const StepRule& rule) {
   require_valid(options, key);
   require_valid(from, problem.prior, options);
+  if (is_by_independent_draws(options, rule)) {
+    return detail::run_independent_draws(problem, options, key, from, observer);
+  }
   detail::Stage stage(problem, options, key);
   Result result;
   Progress progress = std::move(from);
@@ -109,6 +123,7 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
     }
   }
   result.final = std::move(state);
+  result.weights.setOnes(result.final.points.rows());
   result.stages = std::move(progress.stages);
   if (options.diagnose) {
     result.evidence = {progress.bridge.log_evidence(),
@@ -120,7 +135,11 @@ Result resume(const Problem& problem, const Options& options, const StreamKey& k
 
 Result run(const Problem& problem, const Options& options, const StreamKey& key, const Observer& observer,
            const StepRule& rule) {
+  require_valid(options, key);
   Progress progress;
+  if (is_by_independent_draws(options, rule)) {
+    return detail::run_independent_draws(problem, options, key, progress, observer);
+  }
   progress.state = init(problem, options, key);
   if (observer) {
     observer(progress);

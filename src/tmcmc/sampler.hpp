@@ -14,15 +14,17 @@
 
 namespace tmcmc {
 
-/// Called with the draws from the prior, when progress.stages is empty, and after each stage.
+/// Called with the draws from the prior, when progress.stages is empty, and after each stage. With the
+/// finish IndependentDraws: about forty times a run, with all points that have been evaluated so far
+/// (Progress), possibly from one of several threads, but never from two at a time.
 using Observer = std::function<void(const Progress& progress)>;
 
 /// Chooses the step from a population with beta < 1.
 using StepRule = std::function<TemperingStep(const State&)>;
 
-/// The sampler: draws from the prior, and stages until beta is 1.
+/// The sampler: draws from the prior, and stages until beta is 1; or what options.finish makes of it.
 /// \param observer  sees the draws from the prior and the population after each stage
-/// \param rule  chooses the steps; without it, options.criterion does
+/// \param rule  chooses the steps; without it, options.criterion does. Not with IndependentDraws
 /// \throws errors::InvalidValue for invalid options; SamplingError if a criterion cannot be met or
 ///         the likelihood fails; InfeasiblePriorError if no draw from the prior is feasible.
 [[nodiscard]] Result run(const Problem& problem, const Options& options, const StreamKey& key,
@@ -37,7 +39,7 @@ using StepRule = std::function<TemperingStep(const State&)>;
 [[nodiscard]] Result resume(const Problem& problem, const Options& options, const StreamKey& key,
                             Progress from, const Observer& observer = {}, const StepRule& rule = {});
 
-/// Draws from the prior and evaluates them: the state with beta = 0.
+/// Draws from the prior and evaluates them: the state with beta = 0. The finish has no part in it.
 /// \throws as run.
 [[nodiscard]] State init(const Problem& problem, const Options& options, const StreamKey& key);
 
@@ -49,7 +51,8 @@ struct NextStage {
   StageRecord record;
 };
 
-/// One stage as a pure function: weights of the step, resampling, fitted proposals and moves.
+/// One stage as a pure function: weights of the step, resampling, fitted proposals and moves. The
+/// finish has no part in it.
 /// \param tempering  as choose_step() or a StepRule gives it
 /// \throws as run.
 [[nodiscard]] NextStage step(const Problem& problem, const Options& options, const StreamKey& key,

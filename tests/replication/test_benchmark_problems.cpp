@@ -101,7 +101,8 @@ TEST_CASE("Each sampler runs on a problem at its evaluations, the same for any n
 TEST_CASE("A configuration with independent draws gives runs of 1000 points with the moments of all draws") {
   const auto problems = closed_form_problems();
   const auto& p = named(problems, "Gaussian, 2-D");
-  const Configuration configuration{"independent", "5000", {}, tmcmc::IndependentDraws{.evaluations = 5000}};
+  Configuration configuration{"independent", "5000", tmcmc::recommended_options(5000)};
+  configuration.options.finish = tmcmc::IndependentDraws{};
   const auto runs = run_configuration(p.problem, configuration, 0, {.runs = 8, .threads = 2});
   REQUIRE(runs.size() == 8);
   double squares = 0.0;

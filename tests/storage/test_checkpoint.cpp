@@ -298,6 +298,8 @@ TEST_CASE("a checkpoint of other settings is refused with both values", "[storag
       {"infeasible_level = -inf, this run has -1000", [](auto& r) { r.options.infeasible_level = -1000.0; }},
       {"minimum_step = 1e-15, this run has 1e-10", [](auto& r) { r.options.minimum_step = 1e-10; }},
       {"evaluation_budget = 0, this run has 99", [](auto& r) { r.options.evaluation_budget = 99; }},
+      {"finish = none, this run has independent",
+       [](auto& r) { r.options.finish = tmcmc::IndependentDraws{}; }},
       {"diagnose = yes, this run has no", [](auto& r) { r.options.diagnose = false; }},
       {"study = 0, this run has 1", [](auto& r) { r.key.study = 1; }},
       {"arm = 0, this run has 1", [](auto& r) { r.key.arm = 1; }},

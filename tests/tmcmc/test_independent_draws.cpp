@@ -5,7 +5,8 @@
 
 #include "errors/invalid_value.hpp"
 #include "problems.hpp"
-#include "tmcmc/independent_draws.hpp"
+#include "tmcmc/sampler.hpp"
+#include "tmcmc/weighted_samples.hpp"
 
 using namespace tmcmc;
 
@@ -36,8 +37,14 @@ Problem slab_and_spike(double spike_width) {
           BoxPrior(Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(10.0, 10.0))};
 }
 
-bool warns(const MeasuredPosterior& measured, MeasurementWarningKind kind) {
-  for (const auto& warning : measured.warnings) {
+Options by_draws(Index evaluations = 31000) {
+  Options options = recommended_options(evaluations);
+  options.finish = IndependentDraws{};
+  return options;
+}
+
+bool warns(const Result& result, WarningKind kind) {
+  for (const auto& warning : result.diagnostics.warnings) {
     if (warning.kind == kind) {
       return true;
     }
@@ -53,15 +60,14 @@ TEST_CASE("The log-evidence of a normal posterior is right within an honest erro
   double error = 0.0;
   int warned = 0;
   for (std::uint32_t run = 0; run < runs; ++run) {
-    const auto measured =
-        run_with_independent_draws(normal(), {.evaluations = 10000}, {.seed = 1, .run = run});
+    const auto measured = tmcmc::run(normal(), by_draws(10000), {.seed = 1, .run = run});
     const double z =
         (measured.evidence.log_evidence - log_evidence_of_normal) / measured.evidence.standard_error;
     squares += z * z / runs;
     error += measured.evidence.standard_error / runs;
-    warned += measured.warnings.empty() ? 0 : 1;
-    CHECK(measured.evaluations == 10000);
-    CHECK(measured.weights.sum() == Approx(static_cast<double>(measured.points.rows())));
+    warned += measured.diagnostics.warnings.empty() ? 0 : 1;
+    CHECK(measured.final.evaluations == 10000);
+    CHECK(measured.weights.sum() == Approx(static_cast<double>(measured.final.points.rows())));
   }
   CHECK(std::sqrt(squares) < 1.5);
   CHECK(std::sqrt(squares) > 0.6);
@@ -70,13 +76,15 @@ TEST_CASE("The log-evidence of a normal posterior is right within an honest erro
 }
 
 TEST_CASE("Weighted moments and equally weighted points are those of the posterior") {
-  const auto measured = run_with_independent_draws(normal(), {.evaluations = 20000}, {.seed = 2});
-  const double n = static_cast<double>(measured.points.rows());
-  const double independent = measured.effective_sample_size;
+  const auto measured = run(normal(), by_draws(20000), {.seed = 2});
+  const double n = static_cast<double>(measured.final.points.rows());
+  const double independent = measured.measurement->effective_sample_size;
   CHECK(independent > 0.5 * n);
-  const double mean = measured.points.col(0).dot(measured.weights) / n;
+  const double mean = measured.final.points.col(0).dot(measured.weights) / n;
   const double product =
-      (measured.points.col(0).array() * measured.points.col(1).array() * measured.weights.array()).sum() / n;
+      (measured.final.points.col(0).array() * measured.final.points.col(1).array() * measured.weights.array())
+          .sum() /
+      n;
   CHECK(mean == Approx(0.0).margin(5.0 / std::sqrt(independent)));
   CHECK(product == Approx(0.7).margin(5.0 * std::sqrt(1.49 / independent)));
   const Population equal = equally_weighted(measured, 4000, {.seed = 2});
@@ -89,21 +97,21 @@ TEST_CASE("A posterior against a corner of its box, a thousandth of it wide, is 
   const Problem corner{
       problems::by_rows([](const auto& x) { return -(x[0] + x[1]) / 0.001 - 2.0 * std::log(0.001); }),
       BoxPrior(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 1.0))};
-  const auto measured = run_with_independent_draws(corner, {.evaluations = 20000}, {.seed = 3});
+  const auto measured = run(corner, by_draws(20000), {.seed = 3});
   CHECK(measured.evidence.standard_error < 0.02);
   CHECK(measured.evidence.log_evidence == Approx(0.0).margin(5.0 * measured.evidence.standard_error));
 }
 
 TEST_CASE("The same seed gives the same draws for any number of threads and size of batches") {
-  IndependentDraws settings{.evaluations = 12000};
-  const auto one = run_with_independent_draws(normal(), settings, {.seed = 4});
-  settings.threads = 3;
-  settings.batch_rows = 100;
-  const auto three = run_with_independent_draws(normal(), settings, {.seed = 4});
-  CHECK(one.points == three.points);
+  Options options = by_draws(12000);
+  const auto one = run(normal(), options, {.seed = 4});
+  options.threads = 3;
+  options.batch_rows = 100;
+  const auto three = run(normal(), options, {.seed = 4});
+  CHECK(one.final.points == three.final.points);
   CHECK(one.weights == three.weights);
   CHECK(one.evidence.log_evidence == three.evidence.log_evidence);
-  const auto other = run_with_independent_draws(normal(), settings, {.seed = 4, .run = 1});
+  const auto other = run(normal(), options, {.seed = 4, .run = 1});
   CHECK(one.evidence.log_evidence != other.evidence.log_evidence);
 }
 
@@ -116,24 +124,23 @@ TEST_CASE("Two modes of different mass are both measured") {
                                       1e-300);
                     }),
                     BoxPrior(Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(10.0, 10.0))};
-  const auto measured = run_with_independent_draws(two, {}, {.seed = 5});
+  const auto measured = run(two, by_draws(), {.seed = 5});
   CHECK(measured.evidence.log_evidence ==
         Approx(log_evidence_of_normal).margin(5.0 * measured.evidence.standard_error));
   double mass = 0.0;
-  for (Index i = 0; i < measured.points.rows(); ++i) {
-    mass += measured.points(i, 0) < 0.0 ? measured.weights[i] : 0.0;
+  for (Index i = 0; i < measured.final.points.rows(); ++i) {
+    mass += measured.final.points(i, 0) < 0.0 ? measured.weights[i] : 0.0;
   }
-  CHECK(mass / static_cast<double>(measured.points.rows()) == Approx(0.3).margin(0.02));
+  CHECK(mass / static_cast<double>(measured.final.points.rows()) == Approx(0.3).margin(0.02));
 }
 
 TEST_CASE("A wrong log-evidence comes with a warning where a spike holds most of the mass") {
   int wrong = 0;
   for (std::uint32_t run = 0; run < 10; ++run) {
-    const auto measured =
-        run_with_independent_draws(slab_and_spike(0.3), {.evaluations = 10000}, {.seed = 6, .run = run});
+    const auto measured = tmcmc::run(slab_and_spike(0.3), by_draws(10000), {.seed = 6, .run = run});
     const double z =
         (measured.evidence.log_evidence - log_evidence_of_normal) / measured.evidence.standard_error;
-    if (measured.warnings.empty() && !(std::fabs(z) < 5.0)) {
+    if (measured.diagnostics.warnings.empty() && !(std::fabs(z) < 5.0)) {
       ++wrong;
     }
   }
@@ -143,22 +150,22 @@ TEST_CASE("A wrong log-evidence comes with a warning where a spike holds most of
 TEST_CASE("Where the searches do not come near the posterior, TMCMC takes over, with a warning") {
   const Problem wide{problems::by_rows([](const auto& x) { return -0.5 * x.squaredNorm(); }),
                      BoxPrior(Eigen::VectorXd::Constant(40, -10.0), Eigen::VectorXd::Constant(40, 10.0))};
-  const auto measured = run_with_independent_draws(wide, {.evaluations = 6000}, {.seed = 7});
-  CHECK(warns(measured, MeasurementWarningKind::search_not_completed));
-  REQUIRE(measured.tmcmc.has_value());
-  CHECK(measured.points == measured.tmcmc->final.points);
-  CHECK(measured.evidence.log_evidence == measured.tmcmc->evidence.log_evidence);
-  CHECK(measured.evaluations <= 6000);
+  const auto measured = run(wide, by_draws(6000), {.seed = 7});
+  CHECK(warns(measured, WarningKind::search_not_completed));
+  CHECK(!measured.measurement.has_value());
+  CHECK(!measured.stages.empty());
+  CHECK(measured.weights == Eigen::VectorXd::Ones(measured.final.points.rows()));
+  CHECK(measured.final.evaluations <= 6000);
 }
 
 TEST_CASE("Either rule of the paper chooses the same temperatures where the targets agree") {
-  IndependentDraws settings{.evaluations = 8000};
-  const auto by_size = run_with_independent_draws(normal(), settings, {.seed = 8});
-  settings.criterion = coefficient_of_variation_rule(1.0);
-  const auto by_variation = run_with_independent_draws(normal(), settings, {.seed = 8});
-  CHECK(by_size.points == by_variation.points);
-  settings.criterion = effective_sample_size_rule(0.8);
-  CHECK(run_with_independent_draws(normal(), settings, {.seed = 8}).points(0, 0) != by_size.points(0, 0));
+  Options options = by_draws(8000);
+  const auto by_size = run(normal(), options, {.seed = 8});
+  options.criterion = coefficient_of_variation_rule(1.0);
+  const auto by_variation = run(normal(), options, {.seed = 8});
+  CHECK(by_size.final.points == by_variation.final.points);
+  options.criterion = effective_sample_size_rule(0.8);
+  CHECK(run(normal(), options, {.seed = 8}).final.points(0, 0) != by_size.final.points(0, 0));
 }
 
 TEST_CASE("Two modes in ten dimensions keep their masses") {
@@ -170,12 +177,12 @@ TEST_CASE("Two modes in ten dimensions keep their masses") {
         return larger + std::log(0.75 * std::exp(-0.5 * a - larger) + 0.25 * std::exp(-0.5 * b - larger));
       }),
       BoxPrior(Eigen::VectorXd::Constant(10, -10.0), Eigen::VectorXd::Constant(10, 10.0))};
-  const auto measured = run_with_independent_draws(two, {}, {.seed = 9});
+  const auto measured = run(two, by_draws(), {.seed = 9});
   double mass = 0.0;
-  for (Index i = 0; i < measured.points.rows(); ++i) {
-    mass += measured.points(i, 0) > 0.0 ? measured.weights[i] : 0.0;
+  for (Index i = 0; i < measured.final.points.rows(); ++i) {
+    mass += measured.final.points(i, 0) > 0.0 ? measured.weights[i] : 0.0;
   }
-  CHECK(mass / static_cast<double>(measured.points.rows()) == Approx(0.75).margin(0.05));
+  CHECK(mass / static_cast<double>(measured.final.points.rows()) == Approx(0.75).margin(0.05));
 }
 
 TEST_CASE("A model that excludes nearly all of the prior is measured, one that excludes all is refused") {
@@ -186,27 +193,124 @@ TEST_CASE("A model that excludes nearly all of the prior is measured, one that e
                    }),
                    BoxPrior(Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d(1.0, 1.0))};
   };
-  const auto measured = run_with_independent_draws(inside(0.1), {.evaluations = 20000}, {.seed = 10});
+  const auto measured = run(inside(0.1), by_draws(20000), {.seed = 10});
   const double exact = std::log(std::acos(-1.0) * 0.01 / 4.0);
   CHECK(measured.evidence.log_evidence == Approx(exact).margin(5.0 * measured.evidence.standard_error));
   CHECK(measured.evidence.standard_error < 0.1);
-  CHECK_THROWS_AS(run_with_independent_draws(inside(0.0), {.evaluations = 3000}, {.seed = 10}),
-                  InfeasiblePriorError);
+  CHECK_THROWS_AS(run(inside(0.0), by_draws(3000), {.seed = 10}), InfeasiblePriorError);
 }
 
-TEST_CASE("A setting out of range is refused by name") {
-  const auto field_of = [](const IndependentDraws& settings) {
+TEST_CASE("Options that do not go with independent draws are refused by name") {
+  const auto field_of = [](auto change) {
+    Options options = by_draws(4000);
+    change(options);
     try {
-      settings.validate();
+      options.validate();
     } catch (const errors::InvalidValue& error) {
       return error.field();
     }
     return std::string();
   };
-  CHECK(field_of({}).empty());
-  CHECK(field_of({.evaluations = 1999}) == "independent_draws.evaluations");
-  CHECK(field_of({.search_share = 0.6}) == "independent_draws.search_share");
-  CHECK(field_of({.prior_share = 1.0}) == "independent_draws.prior_share");
-  CHECK(field_of({.fit = {.degrees_of_freedom = 7}}) == "independent_draws.fit.degrees_of_freedom");
-  CHECK(field_of({.threads = 0}) == "independent_draws.threads");
+  const auto field_of_draws = [&](const IndependentDraws& draws) {
+    return field_of([&](Options& options) { options.finish = draws; });
+  };
+  CHECK(field_of_draws({}).empty());
+  CHECK(field_of_draws({.search_share = 0.6}) == "options.search_share");
+  CHECK(field_of_draws({.search_share = 0.0}) == "options.search_share");
+  CHECK(field_of_draws({.prior_share = 1.0}) == "options.prior_share");
+  CHECK(field_of_draws({.fit = {.degrees_of_freedom = 7}}) == "options.mixture_degrees_of_freedom");
+  CHECK(field_of_draws({.fit = {.most_components = 0}}) == "options.mixture_components");
+  CHECK(field_of([](Options& options) { options.evaluation_budget = 1999; }) == "options.evaluation_budget");
+  CHECK(field_of([](Options& options) { options.evaluation_budget = 0; }) == "options.evaluation_budget");
+  CHECK(field_of([](Options& options) { options.move = GrowingChains{}; }) == "options.finish");
+  CHECK_THROWS_AS(run(normal(), by_draws(4000), {}, {}, fixed_schedule({0.5, 1.0})), errors::InvalidValue);
+}
+
+TEST_CASE("A run that was stopped goes on to the same result, and pays for no point twice") {
+  const Options options = by_draws(4000);
+  Index evaluated = 0;
+  Problem counted = normal();
+  counted.log_likelihood = [&evaluated, inner = counted.log_likelihood](const auto& points, auto values) {
+    evaluated += points.rows();
+    inner(points, values);
+  };
+  std::vector<Progress> seen;
+  const Result whole =
+      run(counted, options, {.seed = 12}, [&](const Progress& progress) { seen.push_back(progress); });
+  CHECK(evaluated == 4000);
+  REQUIRE(seen.size() >= 30);
+  for (const std::size_t stop : {std::size_t{0}, seen.size() / 2, seen.size() - 1}) {
+    CAPTURE(stop);
+    const Progress& from = seen[stop];
+    evaluated = 0;
+    std::size_t later = 0;
+    const Result again = resume(counted, options, {.seed = 12}, from, [&](const Progress&) { ++later; });
+    CHECK(evaluated == 4000 - from.state.evaluations);
+    CHECK(later <= seen.size() - stop);
+    CHECK(again.final.points == whole.final.points);
+    CHECK(again.weights == whole.weights);
+    CHECK(again.evidence.log_evidence == whole.evidence.log_evidence);
+    CHECK(again.evidence.standard_error == whole.evidence.standard_error);
+  }
+  Progress wrong = seen.front();
+  wrong.state.evaluations = 4001;
+  CHECK_THROWS_AS(resume(counted, options, {.seed = 12}, wrong), errors::InvalidValue);
+}
+
+TEST_CASE("Three threads record what they evaluate, and a run that goes on with it is the same") {
+  Options options = by_draws(4000);
+  const Result whole = run(normal(), options, {.seed = 13});
+  options.threads = 3;
+  options.batch_rows = 50;
+  Progress last;
+  CHECK(run(normal(), options, {.seed = 13}, [&](const Progress& progress) {
+          last = progress;
+        }).final.points == whole.final.points);
+  CHECK(last.state.evaluations > 3800);
+  CHECK(resume(normal(), options, {.seed = 13}, last).final.points == whole.final.points);
+}
+
+TEST_CASE("Weights are one each without independent draws") {
+  Options options;
+  options.samples = 200;
+  const Result result = run(normal(), options, {.seed = 14});
+  CHECK(result.weights == Eigen::VectorXd::Ones(200));
+  CHECK(!result.measurement.has_value());
+}
+
+TEST_CASE("Without diagnose there are samples and weights alone") {
+  Options options = by_draws(4000);
+  const Result full = run(normal(), options, {.seed = 15});
+  options.diagnose = false;
+  const Result bare = run(normal(), options, {.seed = 15});
+  CHECK(bare.weights == full.weights);
+  CHECK(bare.final.log_evidence == full.evidence.log_evidence);
+  CHECK(bare.evidence.log_evidence == 0.0);
+  CHECK(bare.diagnostics.effective_sample_size.size() == 0);
+  CHECK(full.diagnostics.effective_sample_size.minCoeff() > 500.0);
+}
+
+TEST_CASE("Effective sizes of weighted samples are those of the variances of their means") {
+  Population points(4, 2);
+  points << 1.0, 3.0, 2.0, 3.0, 3.0, 3.0, 4.0, 3.0;
+  CHECK(effective_sample_sizes(points, Eigen::Vector4d::Ones())[0] == Approx(4.0));
+  CHECK(effective_sample_sizes(points, Eigen::Vector4d::Ones())[1] == 0.0);
+  // mean 1.5, two points of weight 2 alike: two draws
+  CHECK(effective_sample_sizes(points, Eigen::Vector4d(2.0, 2.0, 0.0, 0.0))[0] == Approx(2.0));
+  CHECK(effective_sample_sizes(points, Eigen::Vector4d::Zero())[0] == 0.0);
+}
+
+TEST_CASE("Equally weighted points follow the weights, under every scheme") {
+  Result result;
+  result.final.points = Eigen::Vector3d(1.0, 2.0, 3.0);
+  result.weights = Eigen::Vector3d(1.5, 0.0, 1.5);
+  for (const Resampling scheme : {Resampling::multinomial, Resampling::residual, Resampling::systematic}) {
+    const Population points = equally_weighted(result, 10000, {.seed = 16}, scheme);
+    CHECK((points.array() == 2.0).count() == 0);
+    CHECK(static_cast<double>((points.array() == 1.0).count()) == Approx(5000.0).margin(250.0));  // 5 sd
+  }
+  CHECK((equally_weighted(result, 10000, {.seed = 16}).array() == 1.0).count() == 5000);
+  CHECK_THROWS_AS(equally_weighted(result, 0, {.seed = 16}), errors::InvalidValue);
+  result.weights.resize(2);
+  CHECK_THROWS_AS(equally_weighted(result, 5, {.seed = 16}), errors::InvalidValue);
 }

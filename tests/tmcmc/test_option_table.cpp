@@ -55,6 +55,7 @@ std::vector<Options> every_alternative() {
   all.back().scale_rule = tmcmc::TargetAcceptance{};
   all.emplace_back().move = tmcmc::WasteFree{};
   all.back().proposal = tmcmc::RedrawnWalk{};
+  all.back().finish = tmcmc::IndependentDraws{.fit = {.degrees_of_freedom = 10}};
   all.emplace_back();
   return all;
 }
@@ -93,11 +94,13 @@ std::string markdown() {
 }  // namespace
 
 TEST_CASE("every member of the options has its row", "[tmcmc][options]") {
-  // criterion has two further members; move, scale_rule, proposal and criterion.rule are rows, as are their members.
+  // criterion has two further members, a mixture fit has its own; move, scale_rule, proposal, finish and criterion.rule are rows,
+  // as are their members.
   const std::size_t expected =
       members<Options>() - 1 + members<tmcmc::Criterion>() +
       members_of_alternatives<decltype(tmcmc::Criterion::rule)> + members_of_alternatives<tmcmc::Move> +
-      members_of_alternatives<tmcmc::ScaleRule> + members_of_alternatives<tmcmc::Proposal>;
+      members_of_alternatives<tmcmc::ScaleRule> + members_of_alternatives<tmcmc::Proposal> +
+      members_of_alternatives<tmcmc::Finish> - 1 + members<tmcmc::MixtureFitOptions>();
   CHECK(option_table().size() == expected);
   std::set<std::string_view> names;
   for (const OptionText& option : option_table()) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tmcmc/distributions.hpp"
-#include "tmcmc/independent_draws.hpp"
 #include "tmcmc/problems.hpp"
 #include "tmcmc/statistics.hpp"
 
@@ -207,7 +206,9 @@ TEST_CASE("log-normal stiffnesses of a shear frame against quadrature", "[tmcmc]
                         Prior({{"stiffness_1", "N/m", lower}, {"stiffness_2", "N/m", upper}})};
   check(problem, exact);
   // The same by independent draws.
-  const auto measured = tmcmc::run_with_independent_draws(problem, {.evaluations = 10000}, {.seed = 3});
+  auto options = tmcmc::recommended_options(10000);
+  options.finish = tmcmc::IndependentDraws{};
+  const auto measured = tmcmc::run(problem, options, {.seed = 3});
   CHECK(std::fabs(measured.evidence.log_evidence - exact.log_evidence) <
         statistics::standard_errors * measured.evidence.standard_error);
   CHECK(measured.evidence.standard_error < 0.02);

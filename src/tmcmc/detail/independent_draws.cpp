@@ -1,15 +1,13 @@
-#include "tmcmc/independent_draws.hpp"
+#include "tmcmc/detail/independent_draws.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "errors/invalid_value.hpp"
 #include "portable_math/sums.hpp"
-#include "tmcmc/detail/resample.hpp"
 #include "tmcmc/log_weights.hpp"
 
-namespace tmcmc {
+namespace tmcmc::detail {
 
 namespace {
 
@@ -22,15 +20,6 @@ constexpr double share_of_a_poor_fit = 0.1;   // below it there are more attempt
 constexpr std::uint32_t most_attempts = 4;    // of the joint fit
 constexpr std::uint32_t most_attempts_poor = 12;
 
-template <class T>
-void require(bool condition, const char* field, T value, const char* expected) {
-  if (!condition) {
-    std::ostringstream text;
-    text << value;
-    throw errors::InvalidValue(std::string("independent_draws.") + field, text.str(), expected);
-  }
-}
-
 /// A stream that is independent of the key's own.
 StreamKey derived(const StreamKey& key, std::uint32_t number) {
   constexpr std::uint32_t derived_block = 3U << 24U;
@@ -40,26 +29,27 @@ StreamKey derived(const StreamKey& key, std::uint32_t number) {
 }
 
 /// Effective size that the criterion asks of a population of so many draws as a fit takes.
-double effective_target(const IndependentDraws& settings, Index d) {
+double effective_target(const Criterion& criterion, Index d) {
   const double population = std::max(200.0, 40.0 * static_cast<double>(d));
-  if (const auto* size = std::get_if<EffectiveSampleSize>(&settings.criterion.rule)) {
+  if (const auto* size = std::get_if<EffectiveSampleSize>(&criterion.rule)) {
     return population * size->fraction;
   }
-  const double target = std::get<CoefficientOfVariation>(settings.criterion.rule).target;
+  const double target = std::get<CoefficientOfVariation>(criterion.rule).target;
   return population / (1.0 + target * target);
 }
 
-SearchOptions search_options(const IndependentDraws& settings, Index d) {
+SearchOptions search_options(const Options& options, const IndependentDraws& settings, Index d) {
   constexpr double fewest = 2400.0;
-  const auto all = static_cast<double>(settings.evaluations);
+  const auto all = static_cast<double>(options.evaluation_budget);
+  const double target = effective_target(options.criterion, d);
   return {.evaluations =
               static_cast<Index>(0.5 * std::min(std::max(settings.search_share * all, fewest), 0.5 * all)),
-          .target = effective_target(settings, d),
-          .enough = 10.0 * effective_target(settings, d),
+          .target = target,
+          .enough = 10.0 * target,
           .prior_share = settings.prior_share,
           .fit = settings.fit,
-          .threads = settings.threads,
-          .batch_rows = settings.batch_rows};
+          .threads = options.threads,
+          .batch_rows = options.batch_rows};
 }
 
 /// The fit with a share of the tempered ones, if there are any, and one of the prior.
@@ -99,9 +89,9 @@ double missed_mass(const Search& search, const ReferenceDraws& draws, const Eige
   return all > 0.0 ? missed / all : 0.0;
 }
 
-std::vector<MeasurementWarning> warnings_of(const MeasuredPosterior& measured) {
-  using Kind = MeasurementWarningKind;
-  std::vector<MeasurementWarning> warnings;
+std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
+  using Kind = WarningKind;
+  std::vector<Warning> warnings;
   const auto warn = [&](Kind kind, const char* what, double value, const char* bound_is, double bound,
                         const char* advice) {
     std::ostringstream text;
@@ -115,10 +105,10 @@ std::vector<MeasurementWarning> warnings_of(const MeasuredPosterior& measured) {
   const double missed_by_both = measured.missed_mass[0] * measured.missed_mass[1];
   const char* advice = "another part may have been missed by both; take more evaluations or other seeds";
   if (!(missed <= most_missed)) {
-    warn(Kind::fits_differ, "the posterior mass that one of two searches has missed", missed, "above",
+    warn(Kind::searches_differ, "the posterior mass that one of two searches has missed", missed, "above",
          most_missed, advice);
   } else if (!(missed_by_both <= most_missed_by_both)) {
-    warn(Kind::fits_differ, "the product of the posterior masses that each of two searches has missed",
+    warn(Kind::searches_differ, "the product of the posterior masses that each of two searches has missed",
          missed_by_both, "above", most_missed_by_both, advice);
   }
   constexpr double fewest_effective = 500.0;
@@ -138,29 +128,45 @@ std::vector<MeasurementWarning> warnings_of(const MeasuredPosterior& measured) {
   return warnings;
 }
 
+/// The options for the evaluations that are left: without the finish, and with samples in proportion.
+Options options_for_the_rest(Options options, Index evaluations) {
+  const auto* waste_free = std::get_if<WasteFree>(&options.move);
+  const Index chains = waste_free != nullptr ? waste_free->chains : 1;
+  const double share = static_cast<double>(evaluations) / static_cast<double>(options.evaluation_budget);
+  const auto samples = static_cast<Index>(share * static_cast<double>(options.samples));
+  options.samples = std::max<Index>(samples / chains, 2) * chains;
+  options.evaluation_budget = evaluations;
+  options.finish = NoFinish{};
+  return options;
+}
+
 /// What a run of TMCMC on the remaining evaluations gives.
-void take_over(const Problem& problem, const IndependentDraws& settings, const StreamKey& key,
+void take_over(const Problem& problem, const Options& options, const StreamKey& key,
                MeasuredPosterior& measured) {
-  Options options = recommended_options(settings.evaluations - measured.evaluations);
-  options.threads = settings.threads;
-  options.batch_rows = settings.batch_rows;
-  measured.tmcmc = run(problem, options, key);
-  const Result& result = *measured.tmcmc;
-  measured.points = result.final.points;
-  measured.log_likelihood = result.final.log_likelihood;
-  measured.weights = Eigen::VectorXd::Ones(result.final.points.rows());
-  measured.evidence = result.evidence;
-  measured.effective_sample_size = result.diagnostics.effective_sample_size.minCoeff();
-  measured.evaluations += result.final.evaluations;
+  measured.tmcmc =
+      run(problem, options_for_the_rest(options, options.evaluation_budget - measured.evaluations), key);
+  measured.evaluations += measured.tmcmc->final.evaluations;
   std::ostringstream text;
   text.precision(3);
   text << "beta at the end of the better search is "
        << std::max(measured.search_beta[0], measured.search_beta[1]) << ": below " << least_beta
        << "; the result is that of TMCMC, take more evaluations";
-  measured.warnings.push_back({MeasurementWarningKind::search_not_completed, text.str()});
-  for (const Warning& warning : result.diagnostics.warnings) {
-    measured.warnings.push_back({MeasurementWarningKind::tmcmc, warning.message});
+  measured.warnings.push_back({WarningKind::search_not_completed, text.str()});
+}
+
+/// The rounds of a search as stages.
+std::vector<StageRecord> records_of(const Search& search) {
+  std::vector<StageRecord> records;
+  for (std::size_t r = 0; r < search.rounds.size(); ++r) {
+    StageRecord record;
+    record.stage = static_cast<Index>(r) + 1;
+    record.beta = search.rounds[r].beta;
+    record.step = record.beta - (records.empty() ? 0.0 : records.back().beta);
+    record.effective_sample_size = search.rounds[r].effective_sample_size;
+    record.evaluations = search.draws.counts[r];
+    records.push_back(record);
   }
+  return records;
 }
 
 /// Whether the fit is good enough to be frozen, or attempts have to end.
@@ -174,31 +180,11 @@ bool is_frozen(const IndependentDraws& settings, double effective_share, std::ui
 
 }  // namespace
 
-void IndependentDraws::validate() const {
-  require(evaluations >= 2000, "evaluations", evaluations, "at least 2000");
-  const double fraction = effective_target(*this, 1) / effective_target({}, 1);
-  require(fraction > 0.0 && fraction <= 2.0, "criterion", fraction,
-          "a positive CoV, or an effective sample size of a share in (0, 1]");
-  require(search_share > 0.0 && search_share <= 0.5, "search_share", search_share, "a number in (0, 0.5]");
-  require(least_effective_share >= 0.0 && least_effective_share < 1.0, "least_effective_share",
-          least_effective_share, "a number in [0, 1)");
-  require(prior_share >= 0.0 && prior_share < 1.0, "prior_share", prior_share, "a number in [0, 1)");
-  require(tempered_share >= 0.0 && tempered_share < 1.0, "tempered_share", tempered_share,
-          "a number in [0, 1)");
-  require(fit.degrees_of_freedom >= 2 && fit.degrees_of_freedom % 2 == 0, "fit.degrees_of_freedom",
-          fit.degrees_of_freedom, "an even number of at least 2");
-  require(fit.most_components >= 1, "fit.most_components", fit.most_components, "at least 1");
-  require(fit.most_iterations >= 1, "fit.most_iterations", fit.most_iterations, "at least 1");
-  require(threads >= 1, "threads", threads, "at least 1");
-  require(batch_rows >= 0, "batch_rows", batch_rows, "a number of rows, or 0 for no limit");
-}
-
-MeasuredPosterior run_with_independent_draws(const Problem& problem, const IndependentDraws& settings,
-                                             const StreamKey& key) {
-  settings.validate();
-  const int threads = settings.threads;
+MeasuredPosterior measure_posterior(const Problem& problem, const Options& options, const StreamKey& key) {
+  const auto& settings = std::get<IndependentDraws>(options.finish);
+  const int threads = options.threads;
   MeasuredPosterior measured;
-  const SearchOptions search = search_options(settings, problem.prior.dimension());
+  const SearchOptions search = search_options(options, settings, problem.prior.dimension());
   std::array<Search, 2> searches;
   ReferenceDraws seen;  // by a fit
   for (std::uint32_t k = 0; k < 2; ++k) {
@@ -207,27 +193,28 @@ MeasuredPosterior run_with_independent_draws(const Problem& problem, const Indep
     measured.evaluations += searches[k].draws.z.rows();
     seen.append(searches[k].draws, threads);
   }
+  measured.rounds = records_of(searches[0]);
   if (std::max(measured.search_beta[0], measured.search_beta[1]) < least_beta) {
-    take_over(problem, settings, derived(key, 3), measured);
+    take_over(problem, options, derived(key, 3), measured);
     return measured;
   }
 
   const auto draw = [&](Index n, std::uint32_t stage) {
     measured.evaluations += n;
-    return draw_and_evaluate(problem, measured.reference, n, key, stage, threads, settings.batch_rows);
+    return draw_and_evaluate(problem, measured.reference, n, key, stage, threads, options.batch_rows);
   };
   ReferenceDraws draws;
   for (std::uint32_t attempt = 0;; ++attempt) {
     measured.reference = reference_of(
         settings, fit_mixture(fit_points(seen, search.target), settings.fit, key, attempt), searches);
-    draws = draw((settings.evaluations - measured.evaluations) / 8, attempt);
+    draws = draw((options.evaluation_budget - measured.evaluations) / 8, attempt);
     const double effective = effective_sample_size(as_span(log_weights(draws)), 1.0);
     if (is_frozen(settings, effective / static_cast<double>(draws.z.rows()), attempt)) {
       break;
     }
     seen.append(draws, threads);
   }
-  draws.append(draw(settings.evaluations - measured.evaluations, final_draws_stage), threads);
+  draws.append(draw(options.evaluation_budget - measured.evaluations, final_draws_stage), threads);
 
   const Eigen::VectorXd log_weight = log_weights(draws);
   const ImportanceEstimate estimate = importance_estimate(as_span(log_weight));
@@ -244,15 +231,4 @@ MeasuredPosterior run_with_independent_draws(const Problem& problem, const Indep
   return measured;
 }
 
-Population equally_weighted(const MeasuredPosterior& measured, Index n, const StreamKey& key) {
-  require(n >= 1, "equally_weighted: n", n, "at least 1");
-  std::vector<Index> rows(static_cast<std::size_t>(n));
-  resample(Resampling::residual, as_span(measured.weights), derived(key, 2), 0, rows);
-  Population points(n, measured.points.cols());
-  for (Index i = 0; i < n; ++i) {
-    points.row(i) = measured.points.row(rows[static_cast<std::size_t>(i)]);
-  }
-  return points;
-}
-
-}  // namespace tmcmc
+}  // namespace tmcmc::detail

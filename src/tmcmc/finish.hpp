@@ -1,0 +1,96 @@
+/// \file
+/// What the posterior is represented by once it has been found: the last population of TMCMC, or
+/// independent draws from a density that was fitted to it.
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "tmcmc/mixture_fit.hpp"
+#include "tmcmc/option.hpp"
+
+namespace tmcmc {
+
+/// The population at beta = 1 is the result, as in the paper.
+struct NoFinish {
+  /// On the command line and in checkpoints.
+  static constexpr std::string_view name = "none";
+};
+
+/// Independent weighted draws measure the posterior, at a cost of Options::evaluation_budget
+/// log-likelihoods in all:
+///
+/// 1. Two independent searches by tempered population Monte Carlo (search_posterior()):
+///    Options::criterion chooses beta for the draws so far, a mixture of Student t distributions is
+///    fitted to them and drawn from, and so on from the prior to beta = 1. With N_eff = f N the
+///    population N is 200 draws, or 40 d if that is more; CoV = c is f = 1 / (1 + c^2), the same
+///    rule.
+/// 2. One density q is fitted to the draws of both. Defensive shares of the prior and of the
+///    tempered fits keep the weights bounded where the fit is too narrow. Trial draws, an eighth of
+///    what is left, tell whether it overlaps with the posterior; if not, they serve another fit.
+/// 3. q is frozen, and the rest are independent draws from it. With weights w = L p / q the
+///    log-evidence is log(mean w). No draw that a fit has seen is among them, so that the mean
+///    weight is unbiased and its error that of independent weights (up to the trial draws, which
+///    the decision to go on has seen).
+///
+/// A mode that both searches have missed leaves no trace. The draws of each alone are therefore
+/// compared with the final ones: a part m_1 of the posterior missed by one search and m_2 by the
+/// other suggests that both have missed about m_1 m_2, as in capture and recapture
+/// (WarningKind::searches_differ). Where neither search comes near the posterior, TMCMC with the
+/// other options gets the remaining evaluations (WarningKind::search_not_completed).
+struct IndependentDraws {
+  /// On the command line and in checkpoints.
+  static constexpr std::string_view name = "independent";
+
+  /// Share of the evaluations for the two searches together; they get 2400 at least, but never more
+  /// than half of what there is.
+  double search_share = 0.32;
+  /// Effective share of the trial draws below which the fit is improved.
+  double least_effective_share = 0.25;
+  /// Share of the draws that are from the prior.
+  double prior_share = 0.02;
+  /// Share of the draws that are from the searches' fits at beta below 0.3.
+  double tempered_share = 0.1;
+  /// Of the densities.
+  MixtureFitOptions fit = {};
+};
+
+/// The least Options::evaluation_budget of IndependentDraws.
+constexpr Index fewest_evaluations_of_independent_draws = 2000;
+
+/// What a run ends with.
+using Finish = std::variant<NoFinish, IndependentDraws>;
+
+/// Calls visit(OptionInfo, pointer to the value) for each option of the finish.
+template <class AnyFinish, class Visit>
+void visit_finish_options(AnyFinish& finish, Visit&& visit) {
+  using enum OptionGroup;
+  auto* draws = std::get_if<IndependentDraws>(&finish);
+  auto* fit = member_of(draws, &IndependentDraws::fit);
+  const auto row = [](std::string_view name, OptionRange range, std::string_view help) {
+    return OptionInfo{name, beyond_the_paper, range, help, "finish", IndependentDraws::name};
+  };
+  const OptionRange below_one{.least = 0.0, .most = 1.0, .below_most = true};
+  visit({"finish", beyond_the_paper, named(), "What measures the posterior that was found"}, &finish);
+  visit(row("search_share", {.least = 0.0, .most = 0.5, .above_least = true},
+            "Share of the evaluations for the searches"),
+        member_of(draws, &IndependentDraws::search_share));
+  visit(row("least_effective_share", below_one, "Effective share of trial draws that a fit needs"),
+        member_of(draws, &IndependentDraws::least_effective_share));
+  visit(row("prior_share", below_one, "Share of the draws that are from the prior"),
+        member_of(draws, &IndependentDraws::prior_share));
+  visit(row("tempered_share", below_one, "Share of the draws from fits at a small beta"),
+        member_of(draws, &IndependentDraws::tempered_share));
+  visit(row("mixture_degrees_of_freedom", whole_from(2, 1000), "Of the fitted Student t distributions; even"),
+        member_of(fit, &MixtureFitOptions::degrees_of_freedom));
+  visit(row("mixture_components", whole_from(1, 1000), "Most components of a fitted mixture"),
+        member_of(fit, &MixtureFitOptions::most_components));
+  visit(row("mixture_iterations", whole_from(1, 1e6), "Most iterations of a fit"),
+        member_of(fit, &MixtureFitOptions::most_iterations));
+  visit(row("mixture_tolerance", positive_number(), "Gain of the mean log-density that ends a fit"),
+        member_of(fit, &MixtureFitOptions::tolerance));
+  visit(row("mixture_gain", {.least = 0.0, .most = 1e100}, "Least gain of it for more components"),
+        member_of(fit, &MixtureFitOptions::gain_of_component));
+}
+
+}  // namespace tmcmc
