@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -24,7 +25,8 @@ class CMakeBuild(build_ext):
             pass
         subprocess.run(
             ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DTMCMC_BUILD_PYTHON=ON",
-             "-DTMCMC_BUILD_EXPERIMENTS=OFF", "-DTMCMC_BUILD_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}", *options],
+             "-DTMCMC_BUILD_EXPERIMENTS=OFF", "-DTMCMC_BUILD_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}", *options,
+             *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
             check=True,
         )
         jobs = str(os.cpu_count() or 1)

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "build_info.hpp"
 #include "errors/invalid_value.hpp"
 #include "inputs.hpp"
 #include "models/parallel_batches.hpp"
@@ -125,7 +126,7 @@ storage::InferenceData inference_data(const tmcmc::Result& result, const Model& 
     data.pointwise_log_likelihood = {{"frequency_hz", model.frame->pointwise(result.final.points)}};
   }
   data.texts = {{"inference_library", "tmcmc_companion"},
-                {"inference_library_version", COMPANION_VERSION},
+                {"inference_library_version", experiments::version()},
                 {"seed", std::to_string(seed)}};
   data.numbers = {{"beta", result.final.beta},
                   {"log_evidence", result.evidence.log_evidence},

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "build_info.hpp"
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "io/journal.hpp"
@@ -20,7 +21,7 @@ namespace {
 std::string key(const replication::Reading& reading, const std::vector<replication::Arm>& arms,
                 const replication::StudyOptions& options, long first_study, const friction::Observations& o,
                 const tmcmc::BoxPrior& prior) {
-  std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", COMPANION_VERSION,
+  std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", version(),
                                  first_study, options.runs, options.seed);
   for (const auto& arm : arms) {
     text += fmt::format(" | {}", arm.name);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "build_info.hpp"
 #include "errors/invalid_value.hpp"
 #include "friction/response.hpp"
 #include "portable_math/normal_quantile.hpp"
@@ -23,7 +24,7 @@ std::string in_directory(const char* directory, const std::string& file) {
   std::error_code ignored;
   return std::filesystem::exists(here, ignored)
              ? here.string()
-             : (std::filesystem::path(COMPANION_SOURCE_DIR) / here).string();
+             : (std::filesystem::path(source_directory()) / here).string();
 }
 
 std::vector<double> ratios(const io::CsvTable& table, const char* column) {

@@ -13,6 +13,7 @@
 #include <new>
 #include <string_view>
 
+#include "build_info.hpp"
 #include "io/interrupt.hpp"
 
 namespace experiments {
@@ -96,7 +97,7 @@ void say(const std::string& line) {
 }  // namespace
 
 Report::Report(CLI::App& app) : app_(app) {
-  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), COMPANION_VERSION));
+  app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), version()));
   app.get_formatter()->column_width(36);
   app.option_defaults()->always_capture_default();
   app.add_flag("--quiet", is_quiet_, "Print no report and show no progress");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "data/directories.hpp"
 #include "friction/observations.hpp"
 
 namespace test_data {
@@ -42,7 +43,7 @@ inline Columns read_columns(const std::string& path) {
 
 /// Table 1 as printed.
 inline friction::Observations table1() {
-  const Columns columns = read_columns(PUBLISHED_DATA_DIR "/table1_observations.csv");
+  const Columns columns = read_columns(source_directory() + "/data/published/table1_observations.csv");
   return {columns.at("r_nominal"), columns.at("r_measured"), columns.at("driving_frequency_hz"),
           columns.at("phase_deg")};
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "data/directories.hpp"
 #include "errors/invalid_value.hpp"
 #include "tmcmc/option_table.hpp"
 
@@ -188,7 +189,7 @@ TEST_CASE("what is refused carries option, value and expectation", "[tmcmc][opti
 }
 
 TEST_CASE("docs/options.md holds the table of the options", "[tmcmc][options]") {
-  std::ifstream file(TEST_DATA_DIR "/../../docs/options.md");
+  std::ifstream file(test_data::source_directory() + "/docs/options.md");
   REQUIRE(file);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   INFO("build/release/bin/test_tmcmc '[print-options]' prints the table of now");
