@@ -21,8 +21,8 @@ namespace {
 std::string key(const replication::Reading& reading, const std::vector<replication::Arm>& arms,
                 const replication::StudyOptions& options, long first_study, const friction::Observations& o,
                 const tmcmc::BoxPrior& prior) {
-  std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", version(),
-                                 first_study, options.runs, options.seed);
+  std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", version(), first_study,
+                                 options.runs, options.seed);
   for (const auto& arm : arms) {
     text += fmt::format(" | {}", arm.name);
     for (const auto& [name, value] : storage::settings(arm.options)) {

@@ -27,9 +27,9 @@ SEED ?= 2
 another-seed: build $(GEN)/compare_published.md $(GEN)/verdicts.md
 	tools/another_seed $(BIN) $(GEN) $(PUB) $(SEED) $(STUDIES)
 
-#: make identical   build with other compilers and instruction sets and compare the bytes of the samples
+#: make identical   build with other compilers and instruction sets (VARIANTS, all) and compare the bytes of the samples
 identical: | sanitize-deps $(filter deps,$(MAKECMDGOALS))
-	tools/identical_bytes
+	tools/identical_bytes $(VARIANTS)
 
 #: make format-check  whether clang-format would change a source
 format-check: | format-deps

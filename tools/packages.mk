@@ -7,6 +7,7 @@ PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev libran
 doc-deps: PACKAGES := doxygen
 format-deps: PACKAGES := clang-format
 reuse-deps: PACKAGES := reuse
+ci-deps: PACKAGES := ccache
 sanitize-deps: PACKAGES := clang clang-tidy libclang-rt-14-dev libomp-dev
 coverage-deps: PACKAGES := gcovr
 mpi-deps: PACKAGES := libopenmpi-dev openmpi-bin
@@ -14,7 +15,7 @@ python-deps: PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libran
   python3-scipy python3-xarray python3-h5netcdf python3-pytest python3-setuptools python3-pip python3-venv
 reader-deps: PACKAGES := python3-xarray python3-h5netcdf
 
-DEPS := deps doc-deps format-deps reuse-deps sanitize-deps coverage-deps mpi-deps python-deps reader-deps
+DEPS := deps doc-deps format-deps reuse-deps ci-deps sanitize-deps coverage-deps mpi-deps python-deps reader-deps
 .PHONY: $(DEPS)
 #: make deps        install the Debian packages that are missing (root or sudo only if there are any)
 $(DEPS):

@@ -22,9 +22,8 @@ const std::vector<std::string> prior_rows = {"friction_force", "natural_frequenc
 std::string in_directory(const char* directory, const std::string& file) {
   const std::filesystem::path here = std::filesystem::path("data") / directory / file;
   std::error_code ignored;
-  return std::filesystem::exists(here, ignored)
-             ? here.string()
-             : (std::filesystem::path(source_directory()) / here).string();
+  return std::filesystem::exists(here, ignored) ? here.string()
+                                                : (std::filesystem::path(source_directory()) / here).string();
 }
 
 std::vector<double> ratios(const io::CsvTable& table, const char* column) {

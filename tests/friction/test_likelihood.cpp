@@ -93,7 +93,8 @@ class DirectLikelihood {
 }  // namespace
 
 TEST_CASE("log-likelihoods of the published physics against reference values", "[friction][likelihood]") {
-  const auto reference = test_data::read_columns(test_data::source_directory() + "/tests/data/log_likelihood_discrete_bin.csv");
+  const auto reference =
+      test_data::read_columns(test_data::source_directory() + "/tests/data/log_likelihood_discrete_bin.csv");
   const auto& expected = reference.at("log_likelihood");
   const auto n = static_cast<Eigen::Index>(expected.size());
   REQUIRE(n == 10);

@@ -89,7 +89,8 @@ double largest_quotient(double r, int points) {
 
 TEST_CASE("phase and limit of the published discretisation against reference values",
           "[friction][response]") {
-  const auto reference = test_data::read_columns(test_data::source_directory() + "/tests/data/phase_discrete_bin.csv");
+  const auto reference =
+      test_data::read_columns(test_data::source_directory() + "/tests/data/phase_discrete_bin.csv");
   const auto& force = reference.at("friction_force_n");
   REQUIRE(force.size() == 30);
   int beyond_the_limit = 0;
