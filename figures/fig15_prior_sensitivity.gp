@@ -12,6 +12,9 @@ titles = '"Friction force {/:Italic F}_{/:Italic μ} (N)" "Natural frequency {/:
 priors = 'uniform log_uniform half_normal'
 prior_titles = '"Uniform" "Log-uniform" "Half-normal"'
 array colours[3] = [blue, vermillion, green]
+set style line 21 lc rgb blue lw 1.1
+set style line 22 lc rgb vermillion lw 1.1 dt (10, 4)
+set style line 23 lc rgb green lw 1.1 dt (3, 3)
 
 set yrange [0:1]
 set ytics 0.25
@@ -34,8 +37,8 @@ do for [i = 1:4] {
   set label 1 sprintf('(%s)', 'abcd'[i:i]) at graph 0.02, 0.93 font 'Nimbus Sans:Bold,8.5' front
   plot for [k = 1:3] boxes using 'x':(own(word(priors, k), 'TMCMC-II', name, 'lower')):'upper' with filledcurves fc rgb colours[k] fs transparent solid 0.12 noborder, \
        for [k = 1:3] boxes using 'x':(own(word(priors, k), 'recommended', name, 'lower')):'upper' with filledcurves fc rgb colours[k] fs transparent solid 0.45 noborder, \
-       for [k = 1:3] boxes using 'x':(own(word(priors, k), 'recommended', name, 'cdf')) with lines lc rgb colours[k] lw 0.9, \
-       for [k = 1:3] keyentry with lines lc rgb colours[k] lw 1.2 title word(prior_titles, k), \
+       for [k = 1:3] boxes using 'x':(own(word(priors, k), 'recommended', name, 'cdf')) with lines ls 20 + k, \
+       for [k = 1:3] keyentry with lines ls 20 + k title word(prior_titles, k), \
        keyentry with filledcurves fc rgb grey fs transparent solid 0.2 noborder title 'TMCMC-II', \
        keyentry with filledcurves fc rgb grey fs transparent solid 0.6 noborder title 'Recommended'
   unset key

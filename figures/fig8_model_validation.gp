@@ -1,5 +1,5 @@
 # Phase angle over the force ratio at the frequency ratios of Table 1: closed form up to Den Hartog's limit, integration in
-# time below and beyond it; and the errors of the published discretisation over the frequency ratio.
+# time below and beyond it; and the phase error of the published discretisation over the frequency ratio.
 width = 17.4
 height = 8.2
 load 'figures/style.gp'
@@ -48,28 +48,12 @@ set lmargin at screen 0.610
 set rmargin at screen 0.980
 set xrange [0.6:2]
 set xtics 0.2
-do for [panel = 2:3] {
-  if (panel == 2) {
-    set tmargin at screen 0.895
-    set bmargin at screen 0.535
-    set yrange [-0.04:0.04]
-    set ytics 0.02 format '%.2f'
-    set xtics format ''
-    unset xlabel
-    set ylabel 'Phase error (deg)' offset -0.1, 0
-    error = 'phase_error_deg'
-  } else {
-    set tmargin at screen 0.485
-    set bmargin at screen 0.125
-    set yrange [0:0.08]
-    set ytics 0.02 format '%.2f'
-    set xtics format '%.1f'
-    set xlabel 'Frequency ratio {/:Italic r}' offset 0, 0.3
-    set ylabel 'Relative error of {/:Italic ϕ}_{lim}' offset -0.1, 0
-    error = 'limit_relative_error'
-  }
-  set label 1 sprintf('(%s)', 'abc'[panel:panel]) at graph 0.18, 0.88 font 'Nimbus Sans:Bold,8.5' front
-  plot errors using 'frequency_ratio':(below(error)) with lines ls MODEL, \
-       errors using 'frequency_ratio':(above(error)) with lines ls MODEL
-}
+set yrange [-0.04:0.04]
+set ytics 0.02 format '%.2f'
+set xtics format '%.1f'
+set xlabel 'Frequency ratio {/:Italic r}' offset 0, 0.3
+set ylabel 'Phase error (deg)' offset -0.1, 0
+set label 1 '(b)' at graph 0.04, 0.92 font 'Nimbus Sans:Bold,8.5' front
+plot errors using 'frequency_ratio':(below('phase_error_deg')) with lines ls MODEL, \
+     errors using 'frequency_ratio':(above('phase_error_deg')) with lines ls MODEL
 unset multiplot
