@@ -1,57 +1,22 @@
 #include "estimation/tabulated_density.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "errors/invalid_value.hpp"
+#include "estimation/legendre_rule.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace estimation {
 
 namespace {
 
-constexpr std::size_t order = 20;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_fall_on_a_panel = 6.0;  // nats; degree 19 resolves e^(3 x) to 1e-15
 
-struct Rule {
-  std::array<double, order> node;
-  std::array<double, order> weight;
-  std::array<std::array<double, order>, order> to_coefficient;  // Legendre coefficients of the interpolant
-  std::array<double, order + 1> up;                             // P_{j+1} = up[j] x P_j - down[j] P_{j-1}
-  std::array<double, order + 1> down;
-};
-
-Rule make_rule() {
-  using Gauss = boost::math::quadrature::gauss<double, order>;
-  Rule rule{};
-  for (std::size_t i = 0; i < order / 2; ++i) {
-    rule.node[order / 2 + i] = Gauss::abscissa()[i];
-    rule.node[order / 2 - 1 - i] = -Gauss::abscissa()[i];
-    rule.weight[order / 2 + i] = rule.weight[order / 2 - 1 - i] = Gauss::weights()[i];
-  }
-  for (std::size_t j = 0; j <= order; ++j) {
-    const auto degree = static_cast<double>(j);
-    rule.up[j] = (2.0 * degree + 1.0) / (degree + 1.0);
-    rule.down[j] = degree / (degree + 1.0);
-  }
-  for (std::size_t i = 0; i < order; ++i) {
-    double previous = 0.0;
-    double legendre = 1.0;
-    for (std::size_t j = 0; j < order; ++j) {
-      rule.to_coefficient[j][i] = (static_cast<double>(j) + 0.5) * rule.weight[i] * legendre;
-      const double next = rule.up[j] * rule.node[i] * legendre - rule.down[j] * previous;
-      previous = legendre;
-      legendre = next;
-    }
-  }
-  return rule;
-}
-
-const Rule rule = make_rule();
+const LegendreRule rule = make_legendre_rule();
 
 double log_add(double a, double b) {
   const double high = std::max(a, b);

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "estimation/legendre_rule.hpp"
+
 namespace estimation {
 
 /// A density that could not be integrated to the tolerance asked for.
@@ -76,7 +78,7 @@ class TabulatedDensity {
   [[nodiscard]] const std::vector<double>& weights() const { return weights_; }  ///< one a node, in [x]
 
  private:
-  static constexpr std::size_t order = 20;
+  static constexpr std::size_t order = LegendreRule::order;
   using Values = std::array<double, order>;
 
   struct Panel {
