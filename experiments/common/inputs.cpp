@@ -76,6 +76,11 @@ std::string example(const std::string& file) {
   return in_directory("examples", file);
 }
 
+bool is_table1(const std::string& observations) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(observations, published("table1_observations.csv"), ignored);
+}
+
 friction::Observations read_observations(const std::string& path) {
   const auto table = io::CsvTable::read(path);
   table.require_columns({"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});

@@ -49,6 +49,9 @@ struct InputFiles {
 /// The same of data/examples/.
 [[nodiscard]] std::string example(const std::string& file);
 
+/// Whether the path is that of the printed Table 1.
+[[nodiscard]] bool is_table1(const std::string& observations);
+
 /// Measurements in the columns of table1_observations.csv: r_nominal, r_measured,
 /// driving_frequency_hz, phase_deg. Warns on stderr of phases whose unit or sign is doubtful.
 /// \throws io::InputError naming file, line, column and value.

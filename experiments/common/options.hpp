@@ -10,6 +10,7 @@
 #include "checks.hpp"
 #include "replication/reading.hpp"
 #include "replication/study.hpp"
+#include "replication/synthetic.hpp"
 #include "run.hpp"
 #include "statistics/deviance_test.hpp"
 
@@ -45,6 +46,15 @@ struct SamplerOptions {
   /// which belong to the two samplers that are compared, are not touched (replication::paper_arms).
   /// \throws errors::InvalidValue naming the option, for values that are incompatible.
   void apply(replication::Reading& reading) const;
+};
+
+/// The truth of synthetic observations, option by option.
+struct TruthOptions {
+  replication::Truth truth;
+
+  void add_to(CLI::App& app);
+  /// Whether one of the options was given.
+  [[nodiscard]] static bool is_given(const CLI::App& app);
 };
 
 /// --tables.

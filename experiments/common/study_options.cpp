@@ -1,5 +1,7 @@
 #include <omp.h>
 
+#include <algorithm>
+
 #include "io/interrupt.hpp"
 #include "names/names.hpp"
 #include "options.hpp"
@@ -43,6 +45,25 @@ replication::Reading PhysicsOptions::reading() const {
   r.infeasible_log_likelihood = infeasible_log_likelihood.value_or(r.infeasible_log_likelihood);
   r.physics.driving_force_n = driving_force_n;
   return r;
+}
+
+void TruthOptions::add_to(CLI::App& app) {
+  app.add_option("--friction-force", truth.friction_force_n, "True friction force, N")
+      ->transform(non_negative());
+  app.add_option("--natural-frequency", truth.natural_frequency_hz, "True frequency, Hz")
+      ->transform(positive());
+  app.add_option("--phase-noise", truth.phase_noise_deg, "Standard deviation of the phase angle, deg")
+      ->transform(non_negative());
+  app.add_option("--frequency-ratio-noise", truth.frequency_ratio_noise,
+                 "Standard deviation of the frequency ratio")
+      ->transform(non_negative());
+}
+
+bool TruthOptions::is_given(const CLI::App& app) {
+  const auto options = {"--friction-force", "--natural-frequency", "--phase-noise",
+                        "--frequency-ratio-noise"};
+  return std::any_of(options.begin(), options.end(),
+                     [&](const char* option) { return app.get_option(option)->count() > 0; });
 }
 
 void TableOptions::add_to(CLI::App& app) {

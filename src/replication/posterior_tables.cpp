@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "pbox/pbox.hpp"
+
 namespace replication {
 
 namespace {
@@ -51,6 +53,29 @@ std::vector<MarginalPoint> marginal_points(const estimation::ExactPosterior& pos
     for (long i = 0; i < points; ++i) {
       const double x = range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1);
       all.push_back({p, x, exact.density(x), exact.cdf(x), laplace.marginal_density(p, x)});
+    }
+  }
+  return all;
+}
+
+std::vector<PboxPoint> pbox_points(const GroupedColumns& samples, const estimation::ExactPosterior& posterior,
+                                   long points) {
+  std::vector<PboxPoint> all;
+  for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
+    for (std::size_t p = 0; p < friction::parameter_count; ++p) {
+      std::vector<pbox::Ecdf> ecdfs;
+      for (const auto& run : samples.values[s][p]) {
+        ecdfs.emplace_back(run);
+      }
+      const auto box = pbox::envelope(ecdfs);
+      const auto& exact = marginal(posterior, p);
+      const auto range = drawn_range(exact);
+      for (long i = 0; i < points; ++i) {
+        const double x =
+            range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1);
+        const auto bounds = pbox::evaluate(box, x);
+        all.push_back({samples.samplers[s], p, x, bounds.lower, bounds.upper, exact.cdf(x)});
+      }
     }
   }
   return all;

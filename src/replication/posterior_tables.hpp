@@ -54,6 +54,26 @@ struct MarginalPoint {
                                                          const estimation::LaplaceApproximation& laplace,
                                                          long points);
 
+/// The p-box of a sampler at one place, beside the exact distribution function.
+struct PboxPoint {
+  /// As in the samples.
+  std::string sampler;
+  /// Friction::Parameter.
+  std::size_t parameter;
+  /// In the unit of the parameter.
+  double x;
+  /// Smallest and largest value of the runs' empirical distribution functions.
+  double lower, upper;
+  /// Value of the exact one.
+  double exact;
+};
+
+/// P-boxes of all runs of each sampler on the places of marginal_points.
+/// \param samples  of the four parameters in order
+/// \param points  of each parameter, at least 2
+[[nodiscard]] std::vector<PboxPoint> pbox_points(const GroupedColumns& samples,
+                                                 const estimation::ExactPosterior& posterior, long points);
+
 /// A bin of the pooled samples of a sampler.
 struct HistogramBin {
   /// As in the samples.

@@ -1,0 +1,34 @@
+/// \file
+/// The tables behind a corner plot of samples: what `corner` and `own_model --figures` write.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run.hpp"
+
+namespace experiments {
+
+/// Samples by parameter.
+struct CornerSamples {
+  std::vector<std::string> names;            ///< of the parameters
+  std::vector<std::vector<double>> columns;  ///< one a parameter, all of one length
+  std::vector<double> weights;               ///< of that length; empty for equal weights
+};
+
+/// Files, or none.
+struct CornerTables {
+  OptionalCsv
+      joint;  ///< of each pair: the middle of a cell, its density, and the probability of the cells at least as dense
+  OptionalCsv marginals;  ///< of each parameter: bins with their density
+  OptionalCsv summary;    ///< a row a parameter: moments, quantiles, the range that is drawn
+
+  /// \throws io::OutputError for a path that cannot be written; an empty one is no file.
+  CornerTables(const std::string& joint_path, const std::string& marginals_path,
+               const std::string& summary_path);
+
+  /// Writes the rows of all tables, and the summary to the report. \param bins  of each parameter
+  void write(const CornerSamples& samples, long bins, const Report& report);
+};
+
+}  // namespace experiments

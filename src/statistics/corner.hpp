@@ -1,0 +1,46 @@
+/// \file
+/// Weighted samples as the panels of a corner plot: marginal densities, and joint densities of pairs.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace statistics {
+
+/// Where a panel begins and ends, in the unit of the parameter.
+struct Range {
+  double low;   ///< less than high
+  double high;  ///< finite, as low is
+};
+
+/// Quantile of weighted values: the smallest of them with at least the share p of the weight at or below it.
+/// \param weights  one a value, not negative, not all zero; empty for equal weights
+/// \throws errors::InvalidValue if there is no value, or for weights that are invalid.
+[[nodiscard]] double weighted_quantile(std::span<const double> values, std::span<const double> weights,
+                                       double p);
+
+/// All but a thousandth of the weight, and a twentieth of its width beyond on each side, but not beyond the smallest and the
+/// largest value. Around a value that all share, a width of a hundredth of it, or of 1 around 0.
+/// \throws as weighted_quantile
+[[nodiscard]] Range panel_range(std::span<const double> values, std::span<const double> weights);
+
+/// Probability density in each of equal bins over the range, of all the weight, also what lies outside.
+/// \throws as weighted_quantile; for a range without width or without bins
+[[nodiscard]] std::vector<double> marginal_density(std::span<const double> values,
+                                                   std::span<const double> weights, const Range& range,
+                                                   long bins);
+
+/// A pair of parameters on a grid of bins times bins cells, x running faster.
+struct PairDensity {
+  std::vector<double> density;  ///< per unit of x times unit of y
+  /// Probability of all cells at least as dense as this one, this one included: the cells with a level up to p
+  /// are the smallest region with the probability p. 1 of empty cells.
+  std::vector<double> level;
+};
+
+/// \throws as marginal_density
+[[nodiscard]] PairDensity pair_density(std::span<const double> x, std::span<const double> y,
+                                       std::span<const double> weights, const Range& x_range,
+                                       const Range& y_range, long bins);
+
+}  // namespace statistics
