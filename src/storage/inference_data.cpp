@@ -1,14 +1,17 @@
 #include "storage/inference_data.hpp"
 
+#include <fmt/format.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <boost/crc.hpp>
 #include <cstdlib>
 #include <numeric>
 #include <string_view>
 #include <utility>
 
 #include "errors/invalid_value.hpp"
+#include "io/csv.hpp"
 
 namespace storage {
 
@@ -72,7 +75,25 @@ class Group {
   int id_ = 0;
 };
 
+/// What was measured, as a CRC-64 of the numbers; empty if nothing is known of it.
+std::string checksum_of(const std::vector<Column>& observed) {
+  std::string text;
+  for (const auto& [name, values] : observed) {
+    for (const double value : values) {
+      text += io::format_number(value) + ',';
+    }
+    text += '\n';
+  }
+  boost::crc_optimal<64, 0x42F0E1EBA9EA3693, ~0ULL, ~0ULL, true, true> crc;  // that of file_checksum()
+  crc.process_bytes(text.data(), text.size());
+  return text.empty() ? text : fmt::format("{:016x}", crc.checksum());
+}
+
 void put_attributes(int id, const InferenceData& data) {
+  if (const std::string checksum = checksum_of(data.observed); !checksum.empty()) {
+    check(nc_put_att_text(id, NC_GLOBAL, "data_checksum", checksum.size(), checksum.data()),
+          "attribute data_checksum");
+  }
   for (const auto& [name, text] : data.texts) {
     check(nc_put_att_text(id, NC_GLOBAL, name.c_str(), text.size(), text.data()), "attribute " + name);
   }

@@ -11,6 +11,7 @@
 ///     observed_data   what was measured, (observation)
 ///     constant_data   what else the likelihood knows of each measurement, (observation)
 ///
+/// The attribute data_checksum is a CRC-64 of the numbers in observed_data, for read_evidence().
 /// The last three are there if the model gives them. There is one chain: the samples of a
 /// population are exchangeable, and their effective sample size is known to the sampler alone
 /// (attributes effective_sample_size_NAME). The file holds no time: the same results give the same
