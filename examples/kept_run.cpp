@@ -12,10 +12,10 @@
 namespace examples {
 
 tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
-                       const std::string& checkpoint) {
+                       const std::string& checkpoint, const tmcmc::Observer& observer) {
   const auto log_likelihood = experiments::interruptible(model);
   if (checkpoint.empty()) {
-    return tmcmc::run({log_likelihood, run.prior}, run.options, run.key);
+    return tmcmc::run({log_likelihood, run.prior}, run.options, run.key, observer);
   }
   // A checkpoint that is a device keeps nothing.
   const auto is_kept = [&] {
@@ -29,6 +29,7 @@ tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikel
                                         [&](const tmcmc::Progress& progress) {
                                           beta = progress.state.beta;
                                           stages = progress.stages.size();
+                                          observer(progress);
                                         });
   } catch (io::Interrupted& interrupted) {
     if (is_kept()) {

@@ -62,7 +62,7 @@ std::vector<File> files_of(const CLI::App& app) {
     }
     const std::string type = option->get_type_name();
     const std::string value = option->count() > 0 ? option->results().back() : option->get_default_str();
-    if ((type == "FILE" || type == "CSV" || type == "PROGRAM") && !value.empty()) {
+    if ((type == "FILE" || type == "CSV" || type == "PROGRAM" || type == "TOML") && !value.empty()) {
       files.push_back({value, option->get_name(), type == "FILE"});
     } else if (type == "DIR") {
       std::error_code ignored;

@@ -11,15 +11,16 @@ constexpr long recommended_evaluations = 31000;  // those of the published setti
 
 const std::vector<std::string> sampler_names = {"published", "recommended"};
 
-/// move_steps is --move-steps.
+const char* group_of(tmcmc::OptionGroup group) {
+  return group == tmcmc::OptionGroup::paper ? "Reading, option by option" : "Sampler beyond the paper";
+}
+
+}  // namespace
+
 std::string option_of(std::string_view name) {
   std::string option = "--" + std::string(name);
   std::replace(option.begin(), option.end(), '_', '-');
   return option;
-}
-
-const char* group_of(tmcmc::OptionGroup group) {
-  return group == tmcmc::OptionGroup::paper ? "Reading, option by option" : "Sampler beyond the paper";
 }
 
 std::string type_of(const tmcmc::OptionText& option) {
@@ -35,21 +36,31 @@ CLI::Validator check_of(const tmcmc::OptionText& option) {
       option.expected);
 }
 
-[[noreturn]] void refuse(std::string_view name, std::string_view value, const std::string& expected) {
-  throw errors::InvalidValue(fmt::format("{}: value '{}'", option_of(name), value), "", expected);
-}
-
-/// An option that would change nothing is a mistake.
-void set(tmcmc::Options& options, const tmcmc::OptionText& option, const std::string& value) {
-  if (!tmcmc::option_value(options, option.name)) {
-    refuse(option.name, value,
-           fmt::format("only with {}{}{}", option_of(option.needs_option),
-                       option.needs_value.empty() ? "" : " ", option.needs_value));
+void set_sampler_options(tmcmc::Options& options, const GivenOption& given, const OptionPlace& place) {
+  const auto refuse = [&](std::string_view name, std::string_view value, const std::string& expected) {
+    throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), value), "", expected);
+  };
+  try {
+    for (const tmcmc::OptionText& option : tmcmc::option_table()) {
+      const auto value = given(option.name);
+      if (value && !tmcmc::option_value(options, option.name)) {  // it would change nothing: a mistake
+        refuse(option.name, *value,
+               fmt::format("only with {}{}{}", option_of(option.needs_option),
+                           option.needs_value.empty() ? "" : " ", option.needs_value));
+      }
+      if (value) {
+        tmcmc::set_option(options, option.name, *value);
+      }
+    }
+    options.validate();
+  } catch (const errors::InvalidValue& invalid) {
+    constexpr std::string_view of_options = "options.";
+    if (!invalid.field().starts_with(of_options)) {
+      throw;
+    }
+    refuse(std::string_view(invalid.field()).substr(of_options.size()), invalid.value(), invalid.expected());
   }
-  tmcmc::set_option(options, option.name, value);
 }
-
-}  // namespace
 
 void SamplerOptions::add_to(CLI::App& app) {
   using enum tmcmc::OptionGroup;
@@ -90,25 +101,13 @@ std::optional<std::string> SamplerOptions::given(std::string_view name) const {
 
 void SamplerOptions::apply(replication::Reading& reading) const {
   tmcmc::Options& options = reading.sampler;
-  try {
-    if (sampler == "recommended") {
-      const auto evaluations = given("evaluation_budget");
-      options = tmcmc::recommended_options(evaluations ? std::stol(*evaluations) : recommended_evaluations);
-    }
-    options.diagnose = diagnose;
-    for (const tmcmc::OptionText& option : tmcmc::option_table()) {
-      if (const auto value = given(option.name)) {
-        set(options, option, *value);
-      }
-    }
-    options.validate();
-  } catch (const errors::InvalidValue& invalid) {
-    constexpr std::string_view of_options = "options.";
-    if (!invalid.field().starts_with(of_options)) {
-      throw;
-    }
-    refuse(std::string_view(invalid.field()).substr(of_options.size()), invalid.value(), invalid.expected());
+  if (sampler == "recommended") {
+    const auto evaluations = given("evaluation_budget");
+    options = tmcmc::recommended_options(evaluations ? std::stol(*evaluations) : recommended_evaluations);
   }
+  options.diagnose = diagnose;
+  set_sampler_options(
+      options, [this](std::string_view name) { return given(name); }, option_of);
 }
 
 }  // namespace experiments

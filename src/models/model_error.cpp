@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "errors/invalid_value.hpp"
 #include "io/csv.hpp"
@@ -34,12 +35,23 @@ std::string describe_first_point(const std::vector<std::string>& parameter_names
 }
 
 void require_shape(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                   const Eigen::Ref<const Eigen::VectorXd>& log_likelihood, std::size_t d) {
-  if (points.cols() != static_cast<Eigen::Index>(d) || log_likelihood.size() != points.rows()) {
-    throw errors::InvalidValue(
-        "points", fmt::format("{} x {} with {} results", points.rows(), points.cols(), log_likelihood.size()),
-        fmt::format("{} columns and as many results as points", d));
+                   const Eigen::Ref<const Eigen::MatrixXd>& values, std::size_t d, std::size_t outputs) {
+  const std::size_t columns = columns_of(outputs);
+  if (points.cols() != static_cast<Eigen::Index>(d) || values.rows() != points.rows() ||
+      values.cols() != static_cast<Eigen::Index>(columns)) {
+    throw errors::InvalidValue("points",
+                               fmt::format("{} x {} with {} x {} results", points.rows(), points.cols(),
+                                           values.rows(), values.cols()),
+                               fmt::format("{} columns, and {} results for each point", d, columns));
   }
+}
+
+bool is_admitted(double value, std::size_t outputs) {
+  return outputs > 0 ? !std::isnan(value) : value < std::numeric_limits<double>::infinity();
+}
+
+std::string admitted(std::size_t outputs) {
+  return outputs > 0 ? "a number, inf or -inf" : "a number or -inf";
 }
 
 void require_options(const std::vector<std::string>& parameter_names, double timeout_seconds) {

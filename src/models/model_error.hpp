@@ -25,10 +25,22 @@ class ModelError : public std::runtime_error {
 [[nodiscard]] std::string describe_first_point(const std::vector<std::string>& parameter_names,
                                                const Eigen::Ref<const Eigen::MatrixXd>& points);
 
+/// Columns of what a model fills: one for each of its outputs, or one for the log-likelihood of a model without.
+[[nodiscard]] constexpr std::size_t columns_of(std::size_t outputs) {
+  return outputs > 0 ? outputs : 1;
+}
+
 /// Refuses a batch of another shape than the model has.
-/// \throws errors::InvalidValue unless points has d columns and as many rows as there are results.
+/// \param outputs  of each point; 0: its log-likelihood
+/// \throws errors::InvalidValue unless points has d columns, and values as many rows and columns_of(outputs) columns.
 void require_shape(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                   const Eigen::Ref<const Eigen::VectorXd>& log_likelihood, std::size_t d);
+                   const Eigen::Ref<const Eigen::MatrixXd>& values, std::size_t d, std::size_t outputs);
+
+/// Whether a model may give this value: as a log-likelihood a number or minus infinity, as an output all but NaN.
+[[nodiscard]] bool is_admitted(double value, std::size_t outputs);
+
+/// What is_admitted asks for, to complete "expected ...".
+[[nodiscard]] std::string admitted(std::size_t outputs);
 
 /// The parts of its options that every such model checks.
 /// \throws errors::InvalidValue for no parameter, or for a time-out that is negative or not finite.

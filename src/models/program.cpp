@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
+#include <iterator>
 #include <utility>
 
 #include "io/csv.hpp"
@@ -34,13 +34,36 @@ Program::Program(ProgramOptions options) : options_(std::move(options)) {
 
 void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                          Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+  evaluate(points, Eigen::Map<Eigen::MatrixXd>(log_likelihood.data(), log_likelihood.size(), 1));
+}
+
+std::vector<std::string> Program::columns_in(const io::CsvTable& table) const {
+  if (options_.outputs == 0) {
+    table.require_columns({column});
+    return {column};
+  }
+  std::vector<std::string> columns;
+  const auto& names = options_.parameter_names;
+  std::copy_if(table.column_names().begin(), table.column_names().end(), std::back_inserter(columns),
+               [&](const auto& name) { return std::find(names.begin(), names.end(), name) == names.end(); });
+  if (columns.size() != options_.outputs) {
+    throw io::InputError({.path = table.path(),
+                          .line = 1,
+                          .found = fmt::format("{} columns of outputs", columns.size()),
+                          .expected = fmt::format("{}, one for each observation", options_.outputs)});
+  }
+  return columns;
+}
+
+void Program::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                       Eigen::Ref<Eigen::MatrixXd> values) const {
   const auto fail = [&](const std::string& what, Eigen::Index row, bool first_of_batch) {
     const auto& names = options_.parameter_names;
     throw ModelError(fmt::format(
         "{}: {}; {}", io::printable(options_.program, 200), what,
         first_of_batch ? describe_first_point(names, points) : describe_point(names, points, row)));
   };
-  require_shape(points, log_likelihood, options_.parameter_names.size());
+  require_shape(points, values, options_.parameter_names.size(), options_.outputs);
   if (points.rows() == 0) {
     return;
   }
@@ -63,7 +86,7 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   }
   try {
     const auto table = io::CsvTable::read(output);
-    table.require_columns({column});
+    const auto columns = columns_in(table);
     const auto rows = static_cast<Eigen::Index>(table.rows());
     const Echo echo(table, options_.parameter_names);
     for (Eigen::Index i = 0; i < std::min(rows, points.rows()); ++i) {
@@ -71,16 +94,20 @@ void Program::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
         fail(what, i, false);
       }
       const auto row = static_cast<std::size_t>(i);
-      const auto value = table.find_number(row, column);
-      if (!value || !(*value < std::numeric_limits<double>::infinity())) {  // NaN and +inf are no likelihoods
-        fail(fmt::format("wrote the log-likelihood '{}': expected a number or -inf",
-                         io::printable(table.cell(row, column))),
-             i, false);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const auto value = table.find_number(row, columns[k]);
+        if (!value || !is_admitted(*value, options_.outputs)) {
+          fail(fmt::format("wrote the {} '{}': expected {}",
+                           options_.outputs > 0 ? io::printable(columns[k]) : "log-likelihood",
+                           io::printable(table.cell(row, columns[k])), admitted(options_.outputs)),
+               i, false);
+        }
+        values(i, static_cast<Eigen::Index>(k)) = *value;
       }
-      log_likelihood[i] = *value;
     }
     if (rows != points.rows()) {
-      fail(fmt::format("wrote {} log-likelihoods for {} points", rows, points.rows()),
+      fail(fmt::format("wrote {} {} for {} points", rows,
+                       options_.outputs > 0 ? "rows of outputs" : "log-likelihoods", points.rows()),
            std::min(rows, points.rows() - 1), false);
     }
   } catch (const io::InputError& error) {

@@ -5,17 +5,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <numeric>
 
 #include "errors/invalid_value.hpp"
 #include "io/csv.hpp"
 #include "models/model_error.hpp"
 #include "models/pool.hpp"
-#include "portable_math/elementary.hpp"
 
 namespace models {
 namespace {
@@ -44,44 +41,20 @@ std::size_t total(const Sizes& sizes) {
   return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
 }
 
-/// A number of a model; "-Infinity" as Python writes it.
-double number_of(const json& value) {
+/// A number of a model; infinities as Python writes them.
+double number_of(const json& value, std::size_t outputs) {
   const double number = value.is_number()      ? value.get<double>()
                         : value == "-Infinity" ? -infinity
+                        : value == "Infinity"  ? infinity
                                                : std::numeric_limits<double>::quiet_NaN();
-  if (!(number < infinity)) {
-    throw ModelError(fmt::format("gave the output {}: expected a number or -Infinity", shown(value)));
+  if (!is_admitted(number, outputs)) {
+    throw ModelError(fmt::format("gave the output {}: expected a number or {}-Infinity", shown(value),
+                                 outputs > 0 ? "Infinity or " : ""));
   }
   return number;
 }
 
 }  // namespace
-
-void GaussianData::validate() const {
-  if (observations.empty() || standard_deviations.size() != observations.size()) {
-    throw errors::InvalidValue(
-        "standard_deviations", standard_deviations.size(),
-        fmt::format("one for each of {} observations, at least one", observations.size()));
-  }
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    if (!std::isfinite(observations[k])) {
-      throw errors::InvalidValue(fmt::format("observations[{}]", k), observations[k], "a finite number");
-    }
-    if (!(standard_deviations[k] > 0.0) || !std::isfinite(standard_deviations[k])) {
-      throw errors::InvalidValue(fmt::format("standard_deviations[{}]", k), standard_deviations[k],
-                                 "a positive, finite number");
-    }
-  }
-}
-
-double GaussianData::log_likelihood(const std::vector<double>& outputs) const {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    const double residual = (observations[k] - outputs[k]) / standard_deviations[k];
-    sum -= 0.5 * residual * residual + portable_math::log(standard_deviations[k]);
-  }
-  return sum - 0.5 * static_cast<double>(observations.size()) * portable_math::log(2.0 * std::numbers::pi);
-}
 
 struct UmBridge::State {
   UmBridgeOptions options;
@@ -119,16 +92,17 @@ struct UmBridge::State {
       throw ModelError(fmt::format("has inputs of the sizes {}: expected {} in all, one for each parameter",
                                    input_sizes, d));
     }
-    const std::size_t outputs = options.data ? options.data->observations.size() : 1;
-    if (total(output_sizes) != outputs) {
-      throw ModelError(fmt::format(
-          "has outputs of the sizes {}: expected {} in all, {}", output_sizes, outputs,
-          options.data ? "one for each observation" : "the log-likelihood, or data to compare them with"));
+    if (total(output_sizes) != columns_of(options.outputs)) {
+      throw ModelError(fmt::format("has outputs of the sizes {}: expected {} in all, {}", output_sizes,
+                                   columns_of(options.outputs),
+                                   options.outputs > 0 ? "one for each observation"
+                                                       : "the log-likelihood, or data to compare them with"));
     }
     connections.give_back(std::move(connection));
   }
 
-  double evaluate(JsonConnection& connection, const Eigen::VectorXd& point) const {
+  template <class Values>
+  void evaluate(JsonConnection& connection, const Eigen::VectorXd& point, Values values) const {
     json input = json::array();
     const double* next = point.data();
     for (const std::size_t size : input_sizes) {
@@ -139,23 +113,22 @@ struct UmBridge::State {
         "/Evaluate", {{"name", options.model}, {"input", std::move(input)}, {"config", config}});
     const auto vectors = member<std::vector<std::vector<json>>>(answer, "output", "vectors");
     Sizes sizes;
-    std::vector<double> outputs;
-    for (const auto& vector : vectors) {
-      sizes.push_back(vector.size());
-      std::transform(vector.begin(), vector.end(), std::back_inserter(outputs), number_of);
-    }
+    std::transform(vectors.begin(), vectors.end(), std::back_inserter(sizes),
+                   [](const auto& vector) { return vector.size(); });
     if (sizes != output_sizes) {
       throw ModelError(fmt::format("gave outputs of the sizes {}: expected {}", sizes, output_sizes));
     }
-    return options.data ? options.data->log_likelihood(outputs) : outputs[0];
+    Eigen::Index k = 0;
+    for (const auto& vector : vectors) {
+      for (const json& value : vector) {
+        values[k++] = number_of(value, options.outputs);
+      }
+    }
   }
 };
 
 UmBridge::UmBridge(UmBridgeOptions options) : state_(std::make_shared<State>()) {
   require_options(options.parameter_names, options.server.timeout_seconds);
-  if (options.data) {
-    options.data->validate();
-  }
   state_->config = json::parse(options.config, nullptr, false);
   if (!state_->config.is_object()) {
     throw errors::InvalidValue("config", io::printable(options.config), "a JSON object");
@@ -170,8 +143,13 @@ UmBridge::UmBridge(UmBridgeOptions options) : state_(std::make_shared<State>()) 
 
 void UmBridge::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+  evaluate(points, Eigen::Map<Eigen::MatrixXd>(log_likelihood.data(), log_likelihood.size(), 1));
+}
+
+void UmBridge::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                        Eigen::Ref<Eigen::MatrixXd> values) const {
   const auto& names = state_->options.parameter_names;
-  require_shape(points, log_likelihood, names.size());
+  require_shape(points, values, names.size(), state_->options.outputs);
   auto connection = state_->connections.take();
   if (!connection) {
     connection = std::make_unique<JsonConnection>(state_->options.server);
@@ -179,7 +157,7 @@ void UmBridge::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
   const long before = connection->repeated();
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     try {
-      log_likelihood[i] = state_->evaluate(*connection, points.row(i).transpose());
+      state_->evaluate(*connection, points.row(i).transpose(), values.row(i));
     } catch (const ModelError& error) {
       throw ModelError(
           fmt::format("{}: {}; {}", state_->name(), error.what(), describe_point(names, points, i)));

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,27 +12,14 @@
 
 namespace models {
 
-/// Measurements with independent Gaussian errors of known size.
-struct GaussianData {
-  std::vector<double> observations;         ///< y, in the order of the model's outputs
-  std::vector<double> standard_deviations;  ///< sigma, one for each observation, of the same unit
-
-  /// \throws errors::InvalidValue for none, for numbers of them that differ, values that are not finite, or sigma <= 0.
-  void validate() const;
-  /// sum_k -((y_k - m_k) / sigma_k)^2 / 2 - log(sigma_k) - log(2 pi) / 2; minus infinity for an m_k that is infinite.
-  /// \param outputs  m, as many as there are observations
-  [[nodiscard]] double log_likelihood(const std::vector<double>& outputs) const;
-};
-
-/// Which model, and how its outputs become a log-likelihood.
+/// Which model, and how many outputs it has.
 struct UmBridgeOptions {
   ServerOptions server;  ///< where it is; retries and time-out of one evaluation
   std::string model;     ///< its name, one of those that /Info lists
   std::vector<std::string>
       parameter_names;        ///< d names; the coordinates in this order fill the model's input vectors
   std::string config = "{}";  ///< JSON object that is passed to the model
-  std::optional<GaussianData>
-      data;  ///< compared with all outputs; without it the one output is the log-likelihood
+  std::size_t outputs = 0;    ///< all of its output vectors together; 0: the one output is the log-likelihood
 };
 
 /// The model as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be called by several threads: each call
@@ -42,7 +28,7 @@ class UmBridge {
  public:
   /// Asks the server for its models and for the sizes of inputs and outputs.
   /// \throws errors::InvalidValue for invalid options; ModelError if the server cannot be reached, speaks another version of
-  ///         the protocol, has no such model, or if the sizes are not d and (with data) the number of observations, (without) 1.
+  ///         the protocol, has no such model, or if its inputs are not d, and its outputs not as many as the options say.
   explicit UmBridge(UmBridgeOptions options);
 
   /// \param points  n x d
@@ -51,6 +37,10 @@ class UmBridge {
   ///         the point; io::Interrupted if a signal has come.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
+
+  /// The same with the outputs of the model in the place of log-likelihoods, for models::gaussian_likelihood.
+  /// \param values  n x outputs, or n x 1 for the log-likelihood; overwritten
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::MatrixXd> values) const;
 
   /// Requests that were repeated after a lost connection, in all calls that have ended.
   [[nodiscard]] long repeated_requests() const;

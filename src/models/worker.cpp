@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -31,15 +30,27 @@ std::string text_of(const Eigen::Ref<const Eigen::MatrixXd>& points) {
   return text;
 }
 
-double value_of(std::string_view line) {
-  const std::string_view text = line.substr(0, line.size() - (line.ends_with('\r') ? 1 : 0));
-  double value = 0.0;
-  const bool is_number = io::csv_text::parse_any_double(text, value).empty();
-  if (!is_number || !(value < std::numeric_limits<double>::infinity())) {  // NaN and +inf are no likelihoods
-    throw ModelError(fmt::format("wrote the log-likelihood '{}': expected a number or -inf",
-                                 io::printable(text, longest_answer)));
+/// The numbers of a line, one for each element of `values`.
+template <class Values>
+void read_line(std::string_view line, std::size_t outputs, Values values) {
+  std::string_view rest = line.substr(0, line.size() - (line.ends_with('\r') ? 1 : 0));
+  const std::string shown = io::printable(rest, longest_answer);
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const bool is_last = k + 1 == values.size();
+    const std::string_view text = is_last ? rest : rest.substr(0, comma);
+    double value = 0.0;
+    if (!io::csv_text::parse_any_double(text, value).empty() || !is_admitted(value, outputs) ||
+        (!is_last && comma == rest.size())) {
+      throw ModelError(
+          outputs == 0
+              ? fmt::format("wrote the log-likelihood '{}': expected a number or -inf", shown)
+              : fmt::format("wrote the line '{}': expected {} outputs with commas between them, each {}",
+                            shown, outputs, admitted(outputs)));
+    }
+    values[k] = value;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
-  return value;
 }
 
 }  // namespace
@@ -71,8 +82,14 @@ Worker::Worker(WorkerOptions options) : state_(std::make_shared<State>()) {
 
 void Worker::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::VectorXd> log_likelihood) const {
+  evaluate(points, Eigen::Map<Eigen::MatrixXd>(log_likelihood.data(), log_likelihood.size(), 1));
+}
+
+void Worker::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                      Eigen::Ref<Eigen::MatrixXd> values) const {
   const WorkerOptions& options = state_->options;
-  require_shape(points, log_likelihood, options.parameter_names.size());
+  require_shape(points, values, options.parameter_names.size(), options.outputs);
+  const std::string what = options.outputs > 0 ? "lines of outputs" : "log-likelihoods";
   if (points.rows() == 0) {
     return;
   }
@@ -88,10 +105,10 @@ void Worker::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
     try {
       const auto take_line = [&](std::string_view line) {
         if (row == points.rows()) {
-          throw ModelError(fmt::format("wrote '{}' after the last of {} log-likelihoods",
-                                       io::printable(line, longest_answer), row));
+          throw ModelError(fmt::format("wrote '{}' after the last of {} {}",
+                                       io::printable(line, longest_answer), row, what));
         }
-        log_likelihood[row] = value_of(line);
+        read_line(line, options.outputs, values.row(row));
         return ++row == points.rows();
       };
       process->exchange(text, deadline_after(options.timeout_seconds), take_line);
@@ -101,7 +118,7 @@ void Worker::operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
       const std::string how = state_->explain(ended.end);
       if (is_second || ended.end.kind == ChildEnd::Kind::not_started ||
           ended.end.kind == ChildEnd::Kind::timed_out) {
-        state_->fail(fmt::format("{} after {} of {} log-likelihoods{}", how, row, points.rows(),
+        state_->fail(fmt::format("{} after {} of {} {}{}", how, row, points.rows(), what,
                                  is_second ? ", as did the worker before it" : ""),
                      points, row);
       }

@@ -23,6 +23,8 @@ struct WorkerOptions {
   double timeout_seconds = 0.0;              ///< of one batch; 0: no limit
   /// Told in one line, from any thread, why a worker is started in the place of another.
   std::function<void(const std::string& reason)> on_restart = [](const std::string&) {};
+  std::size_t outputs =
+      0;  ///< numbers of a line that it writes, with commas between them; 0: one, the log-likelihood
 };
 
 /// The workers as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be called by several threads: as many
@@ -41,6 +43,10 @@ class Worker {
   ///         io::Interrupted if a signal has come: the process groups of all workers are killed with the last copy of this.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
+
+  /// The same of a worker that writes its outputs in the place of log-likelihoods, for models::gaussian_likelihood.
+  /// \param values  n x outputs, or n x 1 for the log-likelihood; overwritten
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::MatrixXd> values) const;
 
   /// Workers that were started in the place of one that had died.
   [[nodiscard]] long restarts() const;

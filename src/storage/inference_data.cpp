@@ -103,10 +103,11 @@ void put_attributes(int id, const InferenceData& data) {
 }
 
 void fill(int file, const InferenceData& data) {
-  const auto draws = static_cast<std::size_t>(data.samples.rows());
+  const auto chains = static_cast<std::size_t>(data.chains);
+  const std::size_t draws = static_cast<std::size_t>(data.samples.rows()) / chains;
   put_attributes(file, data);
   Group posterior(file, "posterior");
-  const std::vector<int> chain_draw = {posterior.dimension("chain", 1, true),
+  const std::vector<int> chain_draw = {posterior.dimension("chain", chains, true),
                                        posterior.dimension("draw", draws, true)};
   for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
     posterior.variable(data.parameter_names[j], chain_draw,
@@ -116,14 +117,15 @@ void fill(int file, const InferenceData& data) {
   put_attributes(posterior.id(), data);
 
   Group statistics(file, "sample_stats");
-  const std::vector<int> same = {statistics.dimension("chain", 1, true),
+  const std::vector<int> same = {statistics.dimension("chain", chains, true),
                                  statistics.dimension("draw", draws, true)};
   statistics.variable("lp", same, data.log_likelihood.data());
   statistics.columns("stage", data.stages);
 
   if (!data.pointwise_log_likelihood.empty()) {
     Group group(file, "log_likelihood");
-    std::vector<int> dimensions = {group.dimension("chain", 1, true), group.dimension("draw", draws, true)};
+    std::vector<int> dimensions = {group.dimension("chain", chains, true),
+                                   group.dimension("draw", draws, true)};
     const Eigen::Index observations = data.pointwise_log_likelihood.front().second.cols();
     dimensions.push_back(group.dimension("observation", static_cast<std::size_t>(observations), true));
     for (const auto& [name, values] : data.pointwise_log_likelihood) {
@@ -191,6 +193,9 @@ void write_inference_data(io::OutputFile& output, const InferenceData& data) {
     throw errors::InvalidValue(
         "samples", std::to_string(data.samples.rows()) + " x " + std::to_string(data.samples.cols()),
         "a column for each parameter name and a log-likelihood for each row");
+  }
+  if (data.chains < 1 || data.samples.rows() % data.chains != 0) {
+    throw errors::InvalidValue("chains", data.chains, "a divisor of the number of samples");
   }
   if (!data.parameter_units.empty() && data.parameter_units.size() != data.parameter_names.size()) {
     throw errors::InvalidValue("parameter_units", data.parameter_units.size(),

@@ -11,9 +11,9 @@
 ///     observed_data   what was measured, (observation)
 ///     constant_data   what else the likelihood knows of each measurement, (observation)
 ///
-/// The attribute data_checksum is a CRC-64 of the numbers in observed_data, for read_evidence().
-/// The last three are there if the model gives them. There is one chain: the samples of a
-/// population are exchangeable, and their effective sample size is known to the sampler alone
+/// The last three are there if the model gives them. The attribute data_checksum is a CRC-64 of the
+/// numbers in observed_data, for read_evidence(). A run is one chain: the samples of
+/// its population are exchangeable, and their effective sample size is known to the sampler alone
 /// (attributes effective_sample_size_NAME). The file holds no time: the same results give the same
 /// bytes.
 #pragma once
@@ -36,8 +36,10 @@ struct InferenceData {
   std::vector<std::string> parameter_names = {};
   /// Their units, the attribute `units` of each variable; empty for none, or none of all.
   std::vector<std::string> parameter_units = {};
-  /// n x d.
+  /// n x d, chain by chain.
   Eigen::MatrixXd samples = {};
+  /// Chains of equal length, independent runs for example; a divisor of n.
+  Eigen::Index chains = 1;
   /// Of each sample and all observations, n.
   Eigen::VectorXd log_likelihood = {};
   /// Columns of one length, the number of stages.

@@ -16,6 +16,9 @@ printf '# rig 2\na,b\n1,2\n' >comment.csv
 printf 'a,b\n1,2\n# rig 2\n' >between.csv
 printf ',a\n0.5,2\n' >unnamed.csv
 echo parameter,friction_force,natural_frequency >correlation.csv
+printf '[run]\nsede = 1\n' >unknown.toml
+printf '[run]\nseed = "one"\n' >type.toml
+printf '[run]\nseed =\n' >syntax.toml
 printf '#!/no/such/sh\n' >interpreter.sh && chmod +x interpreter.sh
 { timeout -s KILL 1 "$bin/replicated_study" $small --studies 100000 --output kept.csv; } 2>/dev/null
 
@@ -103,6 +106,7 @@ while IFS=$'\t' read -r error status command message; do
   for e in "${!needs[@]}"; do
     first=${command%% *} option='' arguments=${needs[$e]}
     case $first in PROGRAM) ;; "$e") [ "$first" != "$command" ] || arguments='' ;; *) continue ;; esac
+    [ "$e $command" != 'own_model PROGRAM word' ] || continue
     [[ $command =~ --[A-Za-z-]+ ]] && option=${BASH_REMATCH[0]}
     case $option in
       --CSV) options=$(options_of "$e" CSV) ;;

@@ -1,0 +1,342 @@
+#include "problem_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <type_traits>
+
+#include "errors/invalid_value.hpp"
+#include "inputs.hpp"
+
+namespace examples {
+
+namespace {
+
+namespace fs = std::filesystem;
+using experiments::count;
+using experiments::option_of;
+
+constexpr long default_chains = 100;
+const std::string column_or_number = "COLUMN|FLOAT";
+const std::vector<std::string> built_in_models = {"shear_frame", "friction"};
+/// Which of them are given says which model there is: the command line's choice replaces the file's.
+const std::vector<std::string> model_choices = {"--built-in", "--command", "--worker", "--um-bridge"};
+/// Set by keys of their own.
+const std::vector<std::string> no_sampler_options = {"evaluation_budget", "threads", "batch_rows",
+                                                     "diagnose"};
+
+bool contains(const std::vector<std::string>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+CLI::Validator any_text() {
+  return experiments::normalising([](const std::string& word) { return std::optional(word); }, "");
+}
+
+/// The text of a value as the command line would have it; nothing for another kind of value than the option takes.
+std::optional<std::string> text_of(const problem::Node& node, bool is_number, const std::string& type) {
+  if (const auto* boolean = std::get_if<bool>(&node.value)) {
+    return type == "no|yes" ? std::optional<std::string>(*boolean ? "yes" : "no") : std::nullopt;
+  }
+  if (node.is_number()) {
+    if (!is_number && type != column_or_number) {
+      return std::nullopt;
+    }
+    const auto* integer = std::get_if<std::int64_t>(&node.value);
+    return integer != nullptr ? std::to_string(*integer) : io::format_number(node.number());
+  }
+  const auto* text = std::get_if<std::string>(&node.value);
+  return text == nullptr || is_number ? std::nullopt : std::optional(*text);
+}
+
+/// A path of the file as it is from the current directory.
+std::string resolved(const std::string& file, const std::string& path) {
+  return path.empty() || path == "-" ? path : (fs::path(file).parent_path() / path).string();
+}
+
+}  // namespace
+
+template <class T>
+ProblemOptions::Key& ProblemOptions::add(CLI::App& app, const char* table, const char* name,
+                                         const char* option, T& target, const std::string& type,
+                                         const CLI::Validator& check, const std::string& help) {
+  constexpr bool is_number =
+      !std::is_same_v<T, std::string> && !std::is_same_v<T, std::optional<std::string>>;
+  CLI::Option* const added = app.add_option(option, target, help)
+                                 ->transform(check)
+                                 ->group(fmt::format("{} (table [{}] of the problem file)", table, table));
+  if (!type.empty()) {
+    added->type_name(type);
+  }
+  const auto set = [&target](const std::string& text) {
+    if constexpr (is_number) {
+      std::conditional_t<std::is_same_v<T, std::optional<long>>, long, T> value{};
+      std::from_chars(text.data(), text.data() + text.size(), value);
+      target = value;
+    } else {
+      target = text;
+    }
+  };
+  return keys_.emplace_back(Key{table, name, added, check, is_number, set});
+}
+
+ProblemOptions::ProblemOptions(CLI::App& app) {
+  app.add_option("problem", path_, "Problem file in TOML; what the command line says too is taken from there")
+      ->type_name("TOML");
+  observations = experiments::example("frame_observations.csv");
+  prior.marginals = experiments::example("frame_prior.csv");
+  add_model(app);
+  add_data_and_prior(app);
+  add_run_and_outputs(app);
+  add_sampler(app);
+  app.callback([this] { read(); });
+}
+
+void ProblemOptions::add_model(CLI::App& app) {
+  const CLI::Validator text = any_text();
+  add(app, "model", "built_in", "--built-in", built_in, CLI::detail::join(built_in_models, "|"),
+      experiments::one_of(built_in_models), "Model in C++");
+  add(app, "model", "driving_force", "--driving-force", driving_force_n, "", experiments::positive(),
+      "k Y_b of the model friction, N");
+  add(app, "model", "command", "--command", command, "PROGRAM", text,
+      "Program that computes a batch: PROGRAM points.csv log_likelihoods.csv");
+  add(app, "model", "worker", "--worker", worker, "PROGRAM", text,
+      "Program that keeps running: n and n points as lines in, n log-likelihoods as lines out");
+  add(app, "model", "um_bridge", "--um-bridge", um_bridge, "URL", text,
+      "Server of the UM-Bridge protocol, with --model");
+  add(app, "model", "name", "--model", model, "NAME", text, "Model of the UM-Bridge server");
+  add(app, "model", "config", "--config", config, "JSON", text,
+      "Object that is passed to it; in the problem file a table");
+  add(app, "model", "timeout", "--timeout", timeout_seconds, "",
+      experiments::number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"),
+      "Most seconds of one call of the program; 0: no limit");
+  add(app, "model", "parallel", "--parallel", parallel, "", count(1, 4096),
+      "Calls of the program at a time; without it as many as --threads");
+  add(app, "model", "batch", "--batch", batch, "", count(0),
+      "Most points of a call of the program; 0: all that there are for each call at a time");
+}
+
+void ProblemOptions::add_data_and_prior(CLI::App& app) {
+  const CLI::Validator text = any_text();
+  add(app, "data", "file", "--observations", observations, "CSV", text,
+      "Measurements: for shear_frame the columns mode (1 or 2), frequency_hz; for friction those of Table 1; "
+      "for another "
+      "program those that its outputs are compared with, or a file that it reads");
+  add(app, "data", "observation", "--observation", observation, "COLUMN", text,
+      "The model has outputs, which are compared with this column of --observations by a Gaussian "
+      "likelihood. Without "
+      "it the output is the log-likelihood (with --um-bridge and --observations: the column observation)");
+  add(app, "data", "standard_deviation", "--standard-deviation", standard_deviation, column_or_number, text,
+      "Its standard deviations: a column, or a number for all; without it the column standard_deviation");
+  add(app, "data", "noise", "--noise", noise, "PARAMETER", text,
+      "Parameter by which they are multiplied, and which the model does not see");
+  add(app, "prior", "file", "--prior", prior.marginals, "CSV", text,
+      "CSV with columns parameter, lower, upper (uniform), or parameter, distribution and a column for each "
+      "argument. With another program: the parameters, of any names");
+  add(app, "prior", "correlation", "--prior-correlation", prior.correlations, "CSV", text,
+      "Matrix of correlations: CSV with a first column parameter (correlations of the parameters) or "
+      "normal_score, and a column for each parameter; without it they are independent");
+}
+
+void ProblemOptions::add_run_and_outputs(CLI::App& app) {
+  const CLI::Validator text = any_text();
+  add(app, "run", "evaluations", "--evaluations", evaluations, "", count(500),
+      "Budget of log-likelihoods of a run");
+  add(app, "run", "runs", "--runs", runs, "", count(1, 1000),
+      "Independent runs, which differ in their random numbers");
+  add(app, "run", "seed", "--seed", seed, "", experiments::seed(), "Seed of the random streams");
+  add(app, "run", "threads", "--threads", threads, "", count(0, 4096),
+      "Threads; 0: as many as the machine has. Results do not depend on it");
+  add(app, "output", "samples", "--output", output, "FILE", text,
+      "CSV: a row a sample, with its log-likelihood; '-' is standard output. Without it no file is written");
+  add(app, "output", "netcdf", "--netcdf", netcdf, "FILE", text,
+      "Samples, stages and observations in the layout of ArviZ");
+  add(app, "output", "summary", "--summary", summary, "FILE", text,
+      "CSV: a row a parameter with mean, sd, quantiles, effective sample size and R-hat");
+  add(app, "output", "checkpoint", "--checkpoint", checkpoint, "FILE", text,
+      "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
+      ".checkpoint, if --output is a file");
+}
+
+void ProblemOptions::add_sampler(CLI::App& app) {
+  for (const tmcmc::OptionText& row : tmcmc::option_table()) {
+    const std::string name(row.name), option = option_of(row.name);
+    if (!contains(no_sampler_options, name)) {
+      Key& key = add(app, "sampler", name.c_str(), option.c_str(), sampler_[name], experiments::type_of(row),
+                     experiments::check_of(row), std::string(row.help));
+      key.is_number = row.values.empty();
+    }
+  }
+}
+
+void ProblemOptions::read() {
+  if (path_.empty()) {
+    return;
+  }
+  file_ = problem::read_file(path_);
+  std::vector<std::string> tables = {"parameters", "correlation"};
+  for (const Key& key : keys_) {
+    if (!contains(tables, key.table)) {
+      tables.push_back(key.table);
+    }
+  }
+  for (const auto& [table, node] : file_->table(file_->root, "")) {
+    if (!contains(tables, table)) {
+      throw io::InputError(fmt::format("{}:{}: {}: unknown key: expected the tables {}",
+                                       io::printable_path(path_), node.line, io::printable(table),
+                                       fmt::join(tables, ", ")));
+    }
+    for (const auto& [name, value] : file_->table(node, table)) {
+      if (table != "parameters" && table != "correlation") {
+        take(table, name, value);
+      }
+    }
+  }
+  for (const char* table : {"parameters", "correlation"}) {
+    const problem::Node* node = file_->root.find(table);
+    if (node != nullptr && is_given("--prior") && key_of("--prior").option->count() == 0) {
+      throw io::InputError(fmt::format("{}:{}: {}: expected no such table beside prior.file",
+                                       io::printable_path(path_), node->line, table));
+    }
+  }
+  const bool has_model = std::any_of(model_choices.begin(), model_choices.end(),
+                                     [&](const std::string& option) { return is_given(option); });
+  if (!has_model) {
+    throw io::InputError(
+        fmt::format("{}: no model: expected built_in, command, worker or um_bridge in the table [model]",
+                    io::printable_path(path_)));
+  }
+  if (!is_other_program() && !is_given("--observations")) {
+    throw io::InputError(fmt::format("{}: no data: expected file, the measurements, in the table [data]",
+                                     io::printable_path(path_)));
+  }
+}
+
+/// Arrays of numbers, and the table of a model's configuration.
+bool ProblemOptions::take_numbers(const std::string& table, const std::string& name,
+                                  const problem::Node& node) {
+  if (table == "model" && name == "config" && std::holds_alternative<problem::Table>(node.value)) {
+    if (key_of("--config").option->count() == 0) {
+      config = problem::to_json(node);
+    }
+    return true;
+  }
+  const bool is_array = std::holds_alternative<problem::Array>(node.value);
+  if (!is_array || table != "data" || (name != "observation" && name != "standard_deviation")) {
+    return false;
+  }
+  const auto key = std::find_if(keys_.begin(), keys_.end(),
+                                [&](const Key& k) { return k.table == table && k.name == name; });
+  if (key->option->count() == 0) {
+    key->line = node.line;
+    for (const problem::Node& element : std::get<problem::Array>(node.value)) {
+      (name == "observation" ? observed : observed_sd).push_back(file_->number(element, table + "." + name));
+    }
+  }
+  return true;
+}
+
+void ProblemOptions::take(const std::string& table, const std::string& name, const problem::Node& node) {
+  const auto key = std::find_if(keys_.begin(), keys_.end(),
+                                [&](const Key& k) { return k.table == table && k.name == name; });
+  const std::string place = table + "." + name;
+  if (key == keys_.end()) {
+    std::vector<std::string> names;
+    for (const Key& k : keys_) {
+      if (k.table == table) {
+        names.push_back(k.name);
+      }
+    }
+    throw io::InputError(fmt::format("{}:{}: {}: unknown key: expected {}", io::printable_path(path_),
+                                     node.line, io::printable(place), fmt::join(names, ", ")));
+  }
+  if (take_numbers(table, name, node)) {
+    return;
+  }
+  std::optional<std::string> text = text_of(node, key->is_number, key->option->get_type_name());
+  if (!text) {
+    file_->fail(node, place, key->is_number ? "a number" : "a text in quotes");
+  }
+  if (const std::string wrong = key->check(*text); !wrong.empty()) {
+    throw io::InputError(fmt::format("{}:{}: {}: {}", io::printable_path(path_), node.line, place, wrong));
+  }
+  const std::string type = key->option->get_type_name();
+  if (type == "CSV" || type == "PROGRAM" || type == "FILE") {
+    const std::string path = resolved(path_, *text);
+    std::error_code ignored;
+    if (type != "FILE" && !fs::exists(path, ignored)) {
+      file_->fail(node, place, "a file that exists; a path begins where the problem file is");
+    }
+    text = path;
+  }
+  const bool is_replaced = contains(model_choices, key->option->get_name()) &&
+                           std::any_of(keys_.begin(), keys_.end(), [&](const Key& k) {
+                             return contains(model_choices, k.option->get_name()) && k.option->count() > 0;
+                           });
+  if (key->option->count() == 0 && !is_replaced) {
+    key->set(*text);
+    key->line = node.line;
+    key->text = *text;
+    key->option->default_str(*text);
+  }
+}
+
+const ProblemOptions::Key& ProblemOptions::key_of(const std::string& option) const {
+  return *std::find_if(keys_.begin(), keys_.end(),
+                       [&](const Key& key) { return key.option->get_name() == option; });
+}
+
+std::string ProblemOptions::place_of(const Key& key) const {
+  return key.line == 0
+             ? key.option->get_name()
+             : fmt::format("{}:{}: {}.{}", io::printable_path(path_), key.line, key.table, key.name);
+}
+
+bool ProblemOptions::is_given(const std::string& option) const {
+  const Key& key = key_of(option);
+  return key.line > 0 || key.option->count() > 0;
+}
+
+bool ProblemOptions::is_other_program() const {
+  return !command.empty() || !worker.empty() || !um_bridge.empty();
+}
+
+int ProblemOptions::thread_count() const {
+  return threads == 0 ? omp_get_max_threads() : threads;
+}
+
+void ProblemOptions::refuse(const std::string& option, const std::string& expected) const {
+  const Key& key = key_of(option);
+  const std::string text = key.option->count() > 0 ? key.option->results().back() : key.text;
+  throw io::InputError(
+      fmt::format("{}: value '{}': expected {}", place_of(key), io::printable(text, 200), expected));
+}
+
+tmcmc::Options ProblemOptions::sampler() const {
+  const auto place = [this](std::string_view name) {
+    return name == "evaluation_budget" ? place_of(key_of("--evaluations"))
+                                       : place_of(key_of(option_of(name)));
+  };
+  const auto given = [this](std::string_view name) {
+    const auto found = sampler_.find(name);
+    return found == sampler_.end() ? std::nullopt : found->second;
+  };
+  tmcmc::Options options;
+  try {
+    const auto chains = given("chains");
+    options = tmcmc::recommended_options(evaluations, chains ? std::stol(*chains) : default_chains);
+  } catch (const errors::InvalidValue& error) {
+    const std::string name = error.field().substr(error.field().find('.') + 1);
+    throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), error.value()), "",
+                               error.expected());
+  }
+  experiments::set_sampler_options(options, given, place);
+  options.threads = thread_count();
+  return options;
+}
+
+}  // namespace examples

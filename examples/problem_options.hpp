@@ -1,0 +1,99 @@
+/// \file
+/// What own_model is asked for, from a problem file and the command line.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "prior_file.hpp"
+#include "problem/node.hpp"
+#include "tmcmc/options.hpp"
+
+namespace examples {
+
+/// The problem. Each value but the tables of parameters and correlations is both a key of the file, in one of its tables, and an
+/// option of the command line, which wins. Paths in the file are relative to the file.
+class ProblemOptions {
+ public:
+  /// Adds the options, and the file as the argument without a name.
+  explicit ProblemOptions(CLI::App& app);
+
+  std::string built_in = "shear_frame";  ///< model in C++ by its name; the default if no other is given
+  std::string command;                   ///< program that is called for each batch; empty: none
+  std::string worker;                    ///< program that keeps running; empty: none
+  std::string um_bridge;                 ///< address of a UM-Bridge server; empty: none
+  std::string model;                     ///< name of the model on that server
+  std::string config = "{}";             ///< JSON object that is passed to that model
+  double driving_force_n = 2.5;          ///< k Y_b of the friction rig, N
+  double timeout_seconds = 0.0;          ///< of a call; 0: none
+  std::optional<long> parallel;          ///< most calls at a time; as many as threads
+  long batch = 0;                        ///< most points of a call; 0: equal shares
+
+  std::string observations;         ///< CSV of the data
+  std::string observation;          ///< its column that model outputs are compared with
+  std::string standard_deviation;   ///< its column, or one number for all
+  std::string noise;                ///< the parameter that multiplies the standard deviations; empty: none
+  std::vector<double> observed;     ///< numbers of the problem file in the place of the column
+  std::vector<double> observed_sd;  ///< likewise
+  experiments::PriorFiles prior;    ///< files in the place of the table of parameters
+
+  long evaluations = 31000;  ///< of a run
+  long runs = 1;             ///< independent ones
+  std::uint64_t seed = 1;    ///< of all
+  int threads = 0;           ///< 0: as many as the machine has
+
+  std::string output;      ///< CSV of the samples
+  std::string netcdf;      ///< samples, stages, observations
+  std::string summary;     ///< CSV of the table that is printed
+  std::string checkpoint;  ///< kept stages
+
+  /// The file; nothing without one.
+  [[nodiscard]] const std::optional<problem::File>& file() const { return file_; }
+  /// Whether the value of an option, such as --prior, was given here or there.
+  [[nodiscard]] bool is_given(const std::string& option) const;
+  /// Whether the model is another program.
+  [[nodiscard]] bool is_other_program() const;
+  /// The recommended sampler with chains enough that a batch is worth the start of a program, and what was given otherwise.
+  /// \throws errors::InvalidValue naming the option or the place in the file.
+  [[nodiscard]] tmcmc::Options sampler() const;
+  /// The threads, resolved.
+  [[nodiscard]] int thread_count() const;
+  /// Refuses a value of the problem file or the command line: "problem.toml:3: data.noise: value 'x': expected ...".
+  [[noreturn]] void refuse(const std::string& option, const std::string& expected) const;
+
+ private:
+  /// A value, in the file and on the command line.
+  struct Key {
+    std::string table, name;  // run, evaluations
+    CLI::Option* option;
+    CLI::Validator check;
+    bool is_number;
+    std::function<void(const std::string&)> set;
+    std::size_t line = 0;  // of the file; 0: not from there
+    std::string text = {};
+  };
+  template <class T>
+  Key& add(CLI::App& app, const char* table, const char* name, const char* option, T& target,
+           const std::string& type, const CLI::Validator& check, const std::string& help);
+  void add_model(CLI::App& app);
+  void add_data_and_prior(CLI::App& app);
+  void add_run_and_outputs(CLI::App& app);
+  void add_sampler(CLI::App& app);
+  void read();
+  void take(const std::string& table, const std::string& name, const problem::Node& node);
+  bool take_numbers(const std::string& table, const std::string& name, const problem::Node& node);
+  [[nodiscard]] const Key& key_of(const std::string& option) const;
+  [[nodiscard]] std::string place_of(const Key& key) const;
+
+  std::string path_;
+  std::optional<problem::File> file_;
+  std::vector<Key> keys_;
+  std::map<std::string, std::optional<std::string>, std::less<>> sampler_;
+};
+
+}  // namespace examples

@@ -1,0 +1,209 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "build_info.hpp"
+#include "statistics/summary.hpp"
+#include "tmcmc/diagnostics.hpp"
+
+namespace examples {
+
+namespace {
+
+using tmcmc::Index;
+
+/// Values of a parameter with their weights, ascending.
+std::vector<std::pair<double, double>> weighted_values(const std::vector<tmcmc::Result>& runs, Index j) {
+  std::vector<std::pair<double, double>> values;
+  for (const auto& run : runs) {
+    const double weight =
+        1.0 / static_cast<double>(run.final.points.rows() * static_cast<Index>(runs.size()));
+    for (Index i = 0; i < run.final.points.rows(); ++i) {
+      values.emplace_back(run.final.points(i, j), weight);
+    }
+  }
+  std::stable_sort(values.begin(), values.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return values;
+}
+
+/// Linear between the middles of the steps of the weighted distribution function.
+double quantile(const std::vector<std::pair<double, double>>& values, double p) {
+  double below = 0.0, last_level = 0.0, last = values.front().first;
+  for (const auto& [x, weight] : values) {
+    const double level = below + 0.5 * weight;
+    if (level >= p) {
+      return level > last_level && below > 0.0 ? last + (x - last) * (p - last_level) / (level - last_level)
+                                               : x;
+    }
+    below += weight;
+    last_level = level;
+    last = x;
+  }
+  return last;
+}
+
+double r_hat(const std::vector<tmcmc::Result>& runs, Index j) {
+  std::vector<double> means, variances, sizes;
+  for (const auto& run : runs) {
+    const auto moments = statistics::moments(
+        {run.final.points.col(j).data(), static_cast<std::size_t>(run.final.points.rows())});
+    means.push_back(moments.mean);
+    variances.push_back(moments.standard_deviation * moments.standard_deviation);
+    sizes.push_back(run.diagnostics.effective_sample_size[j]);
+  }
+  const double n = statistics::moments(sizes).mean, within = statistics::moments(variances).mean;
+  const double between = std::pow(statistics::moments(means).standard_deviation, 2);
+  return runs.size() > 1 && within > 0.0 ? std::sqrt((n - 1.0) / n + between / within)
+                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<ParameterSummary> summarise(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior) {
+  std::vector<ParameterSummary> rows;
+  for (Index j = 0; j < prior.dimension(); ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    ParameterSummary row{.name = prior.names()[at], .unit = prior.units()[at]};
+    const auto values = weighted_values(runs, j);
+    for (const auto& [x, weight] : values) {
+      row.mean += weight * x;
+    }
+    for (const auto& [x, weight] : values) {
+      row.sd += weight * (x - row.mean) * (x - row.mean);
+    }
+    row.sd = std::sqrt(row.sd);
+    row.quantile_5 = quantile(values, 0.05);
+    row.median = quantile(values, 0.5);
+    row.quantile_95 = quantile(values, 0.95);
+    for (const auto& run : runs) {
+      row.effective_sample_size += run.diagnostics.effective_sample_size[j];
+    }
+    row.r_hat = r_hat(runs, j);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+tmcmc::Evidence mean_evidence(const std::vector<tmcmc::Result>& runs) {
+  std::vector<double> values;
+  double squares = 0.0;
+  for (const auto& run : runs) {
+    values.push_back(run.evidence.log_evidence);
+    squares += run.evidence.standard_error * run.evidence.standard_error;
+  }
+  const auto n = static_cast<double>(runs.size());
+  const auto moments = statistics::moments(values);
+  const double within = std::sqrt(squares) / n;
+  return {moments.mean,
+          runs.size() > 1 ? std::max(within, moments.standard_deviation / std::sqrt(n)) : within};
+}
+
+void print_summary(const experiments::Report& report, const std::vector<ParameterSummary>& summary,
+                   const std::vector<tmcmc::Result>& runs) {
+  std::size_t width = std::string("parameter").size();
+  for (const auto& row : summary) {
+    width = std::max(width, row.name.size() + (row.unit.empty() ? 0 : row.unit.size() + 3));
+  }
+  report("{:<{}} {:>11} {:>10} {:>11} {:>11} {:>11} {:>7} {:>6}\n", "parameter", width, "mean", "sd", "5 %",
+         "50 %", "95 %", "ess", "R-hat");
+  for (const auto& row : summary) {
+    const std::string name = row.unit.empty() ? row.name : fmt::format("{} [{}]", row.name, row.unit);
+    report("{:<{}} {:>11.5g} {:>10.3g} {:>11.5g} {:>11.5g} {:>11.5g} {:>7.0f} {:>6}\n", name, width, row.mean,
+           row.sd, row.quantile_5, row.median, row.quantile_95, row.effective_sample_size,
+           std::isnan(row.r_hat) ? "-" : fmt::format("{:.3f}", row.r_hat));
+  }
+  const auto evidence = mean_evidence(runs);
+  report("log-evidence {:.3f} +- {:.3f}", evidence.log_evidence, evidence.standard_error);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    report("{} {} stages, {} evaluations", r == 0 ? ";" : ",", runs[r].stages.size(),
+           runs[r].final.evaluations);
+  }
+  report("\n");
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (const auto& warning : runs[r].diagnostics.warnings) {
+      report("warning: {}{}\n", warning.message, runs.size() > 1 ? fmt::format(" of run {}", r + 1) : "");
+    }
+  }
+}
+
+const std::vector<std::string>& summary_columns() {
+  static const std::vector<std::string> columns = {
+      "parameter", "unit", "mean", "sd", "quantile_5", "median", "quantile_95", "effective_sample_size",
+      "r_hat"};
+  return columns;
+}
+
+void write_summary(experiments::OptionalCsv& csv, const std::vector<ParameterSummary>& summary) {
+  for (const auto& row : summary) {
+    csv.row(row.name, row.unit, row.mean, row.sd, row.quantile_5, row.median, row.quantile_95,
+            row.effective_sample_size, row.r_hat);
+  }
+}
+
+storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs, const Model& model,
+                                      std::uint64_t seed) {
+  storage::InferenceData data{.parameter_names = model.prior.names(), .parameter_units = model.prior.units()};
+  Index draws = runs.front().final.points.rows();
+  for (const auto& run : runs) {
+    draws = std::min(draws, run.final.points.rows());
+  }
+  data.chains = static_cast<Index>(runs.size());
+  data.samples.resize(draws * data.chains, model.prior.dimension());
+  data.log_likelihood.resize(draws * data.chains);
+  Index next = 0;
+  for (const auto& run : runs) {
+    for (Index i = 0; i < draws; ++i, ++next) {
+      const Index row = i * run.final.points.rows() / draws;
+      data.samples.row(next) = run.final.points.row(row);
+      data.log_likelihood[next] = run.final.log_likelihood[row];
+    }
+  }
+  const auto stages = [&](const std::string& name, auto member) {
+    storage::Column column{name, {}};
+    for (const auto& run : runs) {
+      for (const auto& stage : run.stages) {
+        column.second.push_back(static_cast<double>(stage.*member));
+      }
+    }
+    data.stages.push_back(std::move(column));
+  };
+  stages("beta", &tmcmc::StageRecord::beta);
+  stages("effective_sample_size", &tmcmc::StageRecord::effective_sample_size);
+  stages("acceptance_rate", &tmcmc::StageRecord::acceptance_rate);
+  stages("log_evidence_increment", &tmcmc::StageRecord::log_evidence_increment);
+  stages("evaluations", &tmcmc::StageRecord::evaluations);
+  if (runs.size() > 1) {
+    storage::Column run_of_stage{"run", {}};
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      run_of_stage.second.insert(run_of_stage.second.end(), runs[r].stages.size(), static_cast<double>(r));
+    }
+    data.stages.push_back(std::move(run_of_stage));
+  }
+  data.observed = model.measurements.observed;
+  data.constant = model.measurements.constant;
+  if (model.measurements.pointwise) {
+    data.pointwise_log_likelihood = model.measurements.pointwise(data.samples);
+  }
+  data.texts = {{"inference_library", "tmcmc_companion"},
+                {"inference_library_version", experiments::version()},
+                {"seed", std::to_string(seed)}};
+  const auto evidence = mean_evidence(runs);
+  data.numbers = {{"beta", runs.front().final.beta},
+                  {"log_evidence", evidence.log_evidence},
+                  {"log_evidence_standard_error", evidence.standard_error}};
+  for (std::size_t j = 0; j < data.parameter_names.size(); ++j) {
+    double size = 0.0;
+    for (const auto& run : runs) {
+      size += run.diagnostics.effective_sample_size[static_cast<Index>(j)];
+    }
+    data.numbers.emplace_back("effective_sample_size_" + data.parameter_names[j], size);
+  }
+  return data;
+}
+
+}  // namespace examples

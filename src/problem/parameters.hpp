@@ -1,0 +1,39 @@
+/// \file
+/// The prior of a problem file.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "problem/node.hpp"
+#include "tmcmc/prior.hpp"
+
+namespace problem {
+
+/// What a model asks of its parameters.
+struct ParameterRules {
+  /// Those that there have to be, in the order of the model; empty: any, in the order of the file.
+  std::vector<std::string> names = {};
+  /// Whether no parameter may be negative.
+  bool nonnegative = false;
+  /// Throws errors::InvalidValue for a name that a parameter must not have; may be empty.
+  std::function<void(const std::string& name)> require_name = {};
+};
+
+/// The table `parameters`, a table for each parameter by its name, and the table `correlation`:
+///
+///     [parameters]
+///     stiffness = {distribution = "log_normal", mean = 0.9, sd = 0.3, unit = "N/m"}
+///     noise     = {lower = 0.001, upper = 0.1}                  # uniform
+///
+///     [correlation]
+///     of = "normal_score"                                       # or "parameter"
+///     pairs = [["stiffness", "noise", 0.5]]                     # the others are 0
+///
+/// Distributions and arguments are those of tmcmc::distributions(). An argument that is the name of a parameter above makes the prior
+/// hierarchical: theta = {distribution = "normal", mean = "mu", sd = "tau"}. A bound of truncated_normal may be missing.
+/// \throws io::InputError naming file, line, key, value and what was expected.
+[[nodiscard]] tmcmc::Prior read_parameters(const File& file, const ParameterRules& rules);
+
+}  // namespace problem
