@@ -64,20 +64,6 @@ void require_completed(const tmcmc::Result& result, const std::string& checkpoin
   }
 }
 
-void write_samples(OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const auto& samples = runs[r].final;
-    for (Eigen::Index i = 0; i < samples.points.rows(); ++i) {
-      const Eigen::VectorXd point = samples.points.row(i);
-      if (runs.size() > 1) {
-        csv.row(r + 1, point, samples.log_likelihood[i]);
-      } else {
-        csv.row(point, samples.log_likelihood[i]);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -102,12 +88,7 @@ int main(int argc, char** argv) {
     }
 
     // 2. All outputs are opened before the first call of the model.
-    auto columns = model.prior.names();
-    columns.emplace_back("log_likelihood");
-    if (problem.runs > 1) {
-      columns.insert(columns.begin(), "run");
-    }
-    auto csv = open_csv(problem.output, columns);
+    auto csv = open_csv(problem.output, sample_columns(model.prior, problem.runs, options.finish));
     auto summary_csv = open_csv(problem.summary, summary_columns());
     std::optional<io::OutputFile> netcdf;
     if (!problem.netcdf.empty()) {
@@ -134,7 +115,7 @@ int main(int argc, char** argv) {
     const auto summary = summarise(results, model.prior);
     print_summary(report, summary, results);
     write_summary(summary_csv, summary);
-    write_samples(csv, results);
+    write_samples(csv, results, options.finish);
     if (netcdf) {
       storage::write_inference_data(*netcdf, inference_data(results, model, problem.seed));
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 #include "build_info.hpp"
 #include "statistics/summary.hpp"
@@ -20,15 +21,29 @@ using tmcmc::Index;
 std::vector<std::pair<double, double>> weighted_values(const std::vector<tmcmc::Result>& runs, Index j) {
   std::vector<std::pair<double, double>> values;
   for (const auto& run : runs) {
-    const double weight =
-        1.0 / static_cast<double>(run.final.points.rows() * static_cast<Index>(runs.size()));
+    const double total = run.weights.sum() * static_cast<double>(runs.size());
     for (Index i = 0; i < run.final.points.rows(); ++i) {
-      values.emplace_back(run.final.points(i, j), weight);
+      values.emplace_back(run.final.points(i, j), run.weights[i] / total);
     }
   }
   std::stable_sort(values.begin(), values.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   return values;
+}
+
+/// Rows of a run that stand for its posterior with equal weights, evenly spaced in the sum of the weights.
+std::vector<Index> equal_rows(const tmcmc::Result& run, Index draws) {
+  std::vector<Index> rows;
+  const double share = run.weights.sum() / static_cast<double>(draws);
+  Index row = 0;
+  double sum = run.weights[0];
+  for (Index i = 0; i < draws; ++i) {
+    while (sum <= (static_cast<double>(i) + 0.5) * share && row + 1 < run.weights.size()) {
+      sum += run.weights[++row];
+    }
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 /// Linear between the middles of the steps of the weighted distribution function.
@@ -50,10 +65,9 @@ double quantile(const std::vector<std::pair<double, double>>& values, double p) 
 double r_hat(const std::vector<tmcmc::Result>& runs, Index j) {
   std::vector<double> means, variances, sizes;
   for (const auto& run : runs) {
-    const auto moments = statistics::moments(
-        {run.final.points.col(j).data(), static_cast<std::size_t>(run.final.points.rows())});
-    means.push_back(moments.mean);
-    variances.push_back(moments.standard_deviation * moments.standard_deviation);
+    const auto x = run.final.points.col(j).array();
+    means.push_back((run.weights.array() * x).sum() / run.weights.sum());
+    variances.push_back((run.weights.array() * (x - means.back()).square()).sum() / run.weights.sum());
     sizes.push_back(run.diagnostics.effective_sample_size[j]);
   }
   const double n = statistics::moments(sizes).mean, within = statistics::moments(variances).mean;
@@ -145,6 +159,39 @@ void write_summary(experiments::OptionalCsv& csv, const std::vector<ParameterSum
   }
 }
 
+std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs, const tmcmc::Finish& finish) {
+  auto columns = prior.names();
+  columns.emplace_back("log_likelihood");
+  if (runs > 1) {
+    columns.insert(columns.begin(), "run");
+  }
+  if (std::holds_alternative<tmcmc::IndependentDraws>(finish)) {
+    columns.emplace_back("weight");
+  }
+  return columns;
+}
+
+void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs,
+                   const tmcmc::Finish& finish) {
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const auto& samples = runs[r].final;
+    for (Index i = 0; i < samples.points.rows(); ++i) {
+      std::vector<double> row;
+      if (runs.size() > 1) {
+        row.push_back(static_cast<double>(r + 1));
+      }
+      for (Index j = 0; j < samples.points.cols(); ++j) {
+        row.push_back(samples.points(i, j));
+      }
+      row.push_back(samples.log_likelihood[i]);
+      if (std::holds_alternative<tmcmc::IndependentDraws>(finish)) {
+        row.push_back(runs[r].weights[i]);
+      }
+      csv.row(row);
+    }
+  }
+}
+
 storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs, const Model& model,
                                       std::uint64_t seed) {
   storage::InferenceData data{.parameter_names = model.prior.names(), .parameter_units = model.prior.units()};
@@ -157,10 +204,9 @@ storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs, co
   data.log_likelihood.resize(draws * data.chains);
   Index next = 0;
   for (const auto& run : runs) {
-    for (Index i = 0; i < draws; ++i, ++next) {
-      const Index row = i * run.final.points.rows() / draws;
+    for (const Index row : equal_rows(run, draws)) {
       data.samples.row(next) = run.final.points.row(row);
-      data.log_likelihood[next] = run.final.log_likelihood[row];
+      data.log_likelihood[next++] = run.final.log_likelihood[row];
     }
   }
   const auto stages = [&](const std::string& name, auto member) {

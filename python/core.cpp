@@ -20,6 +20,7 @@
 #include "pbox/pbox.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/distributions.hpp"
+#include "tmcmc/option_table.hpp"
 #include "tmcmc/sampler.hpp"
 
 namespace py = pybind11;
@@ -76,10 +77,30 @@ tmcmc::Prior prior_of(const Marginals& marginals) {
   return tmcmc::Prior(std::move(parameters));
 }
 
+using GivenOptions = std::map<std::string, std::string>;
+
+/// The recommended options with those that were given, whose names the caller has checked.
+tmcmc::Options options_of(long evaluations, long chains, const GivenOptions& given) {
+  try {
+    tmcmc::Options options = tmcmc::recommended_options(evaluations, chains);
+    for (const auto& option : tmcmc::option_table()) {  // in the order in which they can be set
+      if (const auto found = given.find(std::string(option.name)); found != given.end()) {
+        tmcmc::set_option(options, option.name, found->second);
+      }
+    }
+    options.validate();
+    return options;
+  } catch (const errors::InvalidValue& error) {
+    const std::string field = error.field().substr(error.field().find('.') + 1);
+    throw errors::InvalidValue(field == "evaluation_budget" ? "evaluations" : field, error.value(),
+                               error.expected());
+  }
+}
+
 /// \param marginals  of each parameter its name, the name of its distribution and the arguments by name
 py::dict run(const py::function& log_likelihood, const Marginals& marginals, long evaluations, long chains,
-             std::uint64_t seed, std::uint32_t run_number) {
-  const tmcmc::Options options = tmcmc::recommended_options(evaluations, chains);
+             std::uint64_t seed, std::uint32_t run_number, const GivenOptions& given) {
+  const tmcmc::Options options = options_of(evaluations, chains, given);
   const tmcmc::Problem problem{batch_of(log_likelihood), prior_of(marginals)};
   tmcmc::Result result;
   {
@@ -91,6 +112,7 @@ py::dict run(const py::function& log_likelihood, const Marginals& marginals, lon
     warnings.push_back(warning.message);
   }
   return py::dict("samples"_a = result.final.points, "log_likelihood"_a = result.final.log_likelihood,
+                  "weights"_a = Eigen::VectorXd(result.weights / result.weights.sum()),
                   "log_evidence"_a = result.evidence.log_evidence,
                   "log_evidence_error"_a = result.evidence.standard_error,
                   "effective_sample_size"_a = result.diagnostics.effective_sample_size,
@@ -142,7 +164,15 @@ PYBIND11_MODULE(_core, module) {
     }
     return all;
   });
-  module.def("run", &run, "log_likelihood"_a, "marginals"_a, "evaluations"_a, "chains"_a, "seed"_a, "run"_a);
+  module.def("run", &run, "log_likelihood"_a, "marginals"_a, "evaluations"_a, "chains"_a, "seed"_a, "run"_a,
+             "options"_a);
+  module.def("options", [] {
+    std::vector<std::tuple<std::string, std::string, std::string>> all;
+    for (const auto& option : tmcmc::option_table()) {
+      all.emplace_back(option.name, option.help, option.expected);
+    }
+    return all;
+  });
 
   module.def("envelope", [](const std::vector<std::vector<double>>& samples) {
     const pbox::PBox box = pbox::envelope(ecdfs_of(samples));

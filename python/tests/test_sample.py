@@ -157,6 +157,41 @@ def scipy_priors():
     ]
 
 
+def test_options_of_the_sampler_by_name():
+    plain = tmcmc.sample(gaussian, BOX, evaluations=SMALL)
+    same = tmcmc.sample(gaussian, BOX, evaluations=SMALL, independent_fraction=np.float64(0.5), cross_fit=False, max_stages=1000)
+    assert plain.samples.tobytes() == same.samples.tobytes()
+    other = tmcmc.sample(gaussian, BOX, evaluations=SMALL, cross_fit=True)
+    assert plain.samples.tobytes() != other.samples.tobytes()
+    assert "finish" in tmcmc.options() and "chains" not in tmcmc.options()
+    with pytest.raises(TypeError, match="sample\\(\\) has no option 'move_step': expected one of samples, "):
+        tmcmc.sample(gaussian, BOX, move_step=3)
+    with pytest.raises(ValueError, match="move_steps = 3: expected only with move = resample-move"):
+        tmcmc.sample(gaussian, BOX, move_steps=3)
+    with pytest.raises(ValueError, match="independent_fraction = 2.0: expected a number in "):
+        tmcmc.sample(gaussian, BOX, independent_fraction=2.0)
+    with pytest.raises(ValueError, match="cross_fit = maybe: expected no or yes"):
+        tmcmc.sample(gaussian, BOX, cross_fit="maybe")
+    with pytest.raises(TypeError, match="max_stages = None: expected a number, a text or a bool"):
+        tmcmc.sample(gaussian, BOX, max_stages=None)
+
+
+def test_independent_draws_have_weights_and_an_unbiased_evidence():
+    calls = []
+
+    def counted(points):
+        calls.append(len(points))
+        return gaussian(points)
+
+    result = tmcmc.sample(counted, BOX, evaluations=8000, runs=2, finish="independent")
+    assert abs(result.log_evidence + math.log(36.0)) < 5.0 * result.log_evidence_error < 0.1
+    assert result.weights.sum() == pytest.approx(1.0) and np.ptp(result.runs[0].weights) > 0.0
+    row = result.summary()["a"]
+    assert abs(row["mean"] - 0.5) < 5.0 * 0.1 / math.sqrt(row["ess"])
+    assert abs(row["sd"] - 0.1) < 0.01 and row["r_hat"] < 1.01
+    assert sum(calls) <= 2 * 8000 and len(calls) < 200
+
+
 def test_priors_of_scipy_are_those_distributions():
     """Under a likelihood of 1 the posterior is the prior, and the first stage has all samples."""
     priors = scipy_priors()

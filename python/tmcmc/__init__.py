@@ -17,7 +17,7 @@ from . import friction, pbox
 from ._core import SamplingError, __version__
 from ._prior import distributions
 from ._result import Result, Run, Summary
-from ._sampling import LogLikelihoodError, SamplingWarning, sample
+from ._sampling import LogLikelihoodError, SamplingWarning, options, sample
 
 __all__ = [
     "LogLikelihoodError",
@@ -29,6 +29,7 @@ __all__ = [
     "__version__",
     "distributions",
     "friction",
+    "options",
     "pbox",
     "sample",
 ]

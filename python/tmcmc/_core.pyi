@@ -20,7 +20,9 @@ def run(
     chains: int,
     seed: int,
     run: int,
+    options: dict[str, str],
 ) -> dict[str, Any]: ...
+def options() -> list[tuple[str, str, str]]: ...
 def envelope(
     samples: Sequence[Sequence[float]],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...

@@ -17,10 +17,11 @@ QUANTILES = (0.025, 0.25, 0.5, 0.75, 0.975)
 
 @dataclass(frozen=True)
 class Run:
-    """One run of the sampler; its samples have equal weights."""
+    """One run of the sampler."""
 
     samples: Array  #: (n, d), a row a sample
     log_likelihood: Array  #: n
+    weights: Array  #: of the samples, n, which sum to 1; equal but with finish="independent"
     log_evidence: float  #: with the prior normalised
     log_evidence_error: float  #: standard error, from this run alone
     effective_sample_size: Array  #: of each parameter, d
@@ -59,8 +60,7 @@ class Result:
     @property
     def weights(self) -> Array:
         """Weights of the samples, which sum to 1: each run counts the same."""
-        sizes = [len(run.samples) for run in self.runs]
-        return np.concatenate([np.full(size, 1.0 / (size * len(sizes))) for size in sizes])
+        return np.concatenate([run.weights / len(self.runs) for run in self.runs])
 
     @property
     def log_likelihood(self) -> Array:
@@ -113,21 +113,24 @@ class Result:
         if len(self.runs) == 1:
             return float("nan")
         n = float(np.mean([run.effective_sample_size[j] for run in self.runs]))
-        within = float(np.mean([np.var(run.samples[:, j], ddof=1) for run in self.runs]))
-        between = float(np.var([np.mean(run.samples[:, j]) for run in self.runs], ddof=1))
+        means = [float(np.sum(run.weights * run.samples[:, j])) for run in self.runs]
+        within = float(np.mean([np.sum(run.weights * (run.samples[:, j] - m) ** 2) for run, m in zip(self.runs, means)]))
+        between = float(np.var(means, ddof=1))
         return float(np.sqrt((n - 1.0) / n + between / within)) if within > 0.0 else float("nan")
 
     def to_xarray(self) -> dict[str, Any]:
         """The groups posterior and sample_stats in the layout of ArviZ's InferenceData, as xarray.Dataset; runs are chains.
 
-        Chains must have one length: of a run with more samples than the shortest, evenly spaced ones are taken.
+        Chains have the length of the shortest run and equal weights: of each run samples are taken that are evenly spaced in the
+        sum of its weights.
         """
         try:
             import xarray
         except ImportError as error:
             raise ImportError("to_xarray and to_netcdf need xarray (Debian: python3-xarray)") from error
         length = min(len(run.samples) for run in self.runs)
-        rows = [np.arange(length) * len(run.samples) // length for run in self.runs]
+        levels = (np.arange(length) + 0.5) / length
+        rows = [np.minimum(np.searchsorted(np.cumsum(run.weights), levels), len(run.samples) - 1) for run in self.runs]
         coordinates = {"chain": np.arange(len(self.runs)), "draw": np.arange(length)}
         attributes = {
             "inference_library": "tmcmc_companion",

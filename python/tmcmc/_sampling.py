@@ -39,6 +39,7 @@ def sample(
     seed: int = 1,
     runs: int = 1,
     chains: int = 100,
+    **options: str | float | bool,
 ) -> Result:
     """Samples the posterior by waste-free TMCMC and estimates the evidence.
 
@@ -54,25 +55,57 @@ def sample(
         runs: number of independent runs, each with the whole budget.
         chains: number of points in most calls of the log-likelihood. Many make the call of a vectorised function worth
             its overhead; few let the chains grow longer.
+        options: options of the sampler by their names in tmcmc.options(), such as ``finish="independent"`` for weighted
+            independent draws, which come in large calls and give the evidence best; ``cross_fit=True``; or
+            ``criterion="coefficient of variation"``.
 
     Raises:
         LogLikelihoodError: naming the point, if the log-likelihood raises an exception or returns NaN, plus infinity or another
             number of values than points.
         SamplingError: if no draw from the prior has a finite log-likelihood.
-        ValueError: for a prior or a budget that makes no sense.
+        ValueError: for a prior, a budget or an option's value that makes no sense.
+        TypeError: for an option that there is not.
     """
+    given = _options(options)
     marginals = marginals_of(prior)
     names = [name for name, _, _ in marginals]
     if runs < 1:
         raise ValueError(f"runs = {runs}: expected at least 1")
     batch = _Batch(log_likelihood, names)
-    results = [Run(**_core.run(batch, marginals, evaluations, chains, seed, number)) for number in range(runs)]
+    results = [Run(**_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
     result = Result(names, results, seed)
     for number, run in enumerate(results):
         for message in run.warnings:
             of_run = f" of run {number}" if runs > 1 else ""
             warnings.warn(f"{message}{of_run}", SamplingWarning, stacklevel=2)
     return result
+
+
+def options() -> dict[str, str]:
+    """The options of the sampler that sample() takes beside its own, with what each is for and the values that it has."""
+    return {name: f"{text}: {expected}" for name, text, expected in _core.options() if name not in _OWN}
+
+
+#: set by arguments of sample(), or of no use from Python
+_OWN = ("evaluation_budget", "chains", "threads", "diagnose")
+
+
+def _options(given: Mapping[str, Any]) -> dict[str, str]:
+    texts = {}
+    for name, value in given.items():
+        if name not in options():
+            raise TypeError(f"sample() has no option {name!r}: expected one of {', '.join(options())}")
+        if isinstance(value, (bool, np.bool_)):
+            texts[name] = "yes" if value else "no"
+        elif isinstance(value, (int, np.integer)):
+            texts[name] = str(int(value))
+        elif isinstance(value, (float, np.floating)):
+            texts[name] = repr(float(value))
+        elif isinstance(value, str):
+            texts[name] = value
+        else:
+            raise TypeError(f"{name} = {value!r}: expected a number, a text or a bool")
+    return texts
 
 
 class _Batch:

@@ -51,6 +51,13 @@ std::string text_of(const json& object, const char* key) {
                                : io::printable(found->dump(), longest_body);
 }
 
+/// What an answer of another status says: cpp-httplib's servers put the words of an exception into a header.
+std::string words_of(const httplib::Response& answer) {
+  const std::string words =
+      answer.has_header("EXCEPTION_WHAT") ? answer.get_header_value("EXCEPTION_WHAT") : answer.body;
+  return words.empty() ? "" : fmt::format(" ({})", io::printable(words, longest_body));
+}
+
 bool is_gateway_failure(int status) {
   return status == 502 || status == 503 || status == 504;
 }
@@ -130,7 +137,8 @@ json JsonConnection::request(const Send& send) {
                                      text_of(answer["error"], "message")));
       }
       if (result->status != 200) {
-        throw ModelError(fmt::format("answered with the status {}: expected 200", result->status));
+        throw ModelError(
+            fmt::format("answered with the status {}{}: expected 200", result->status, words_of(*result)));
       }
       if (!answer.is_object()) {
         throw ModelError(

@@ -48,8 +48,11 @@ double number_of(const json& value, std::size_t outputs) {
                         : value == "Infinity"  ? infinity
                                                : std::numeric_limits<double>::quiet_NaN();
   if (!is_admitted(number, outputs)) {
-    throw ModelError(fmt::format("gave the output {}: expected a number or {}-Infinity", shown(value),
-                                 outputs > 0 ? "Infinity or " : ""));
+    throw ModelError(fmt::format("gave the output {}: expected a number or {}-Infinity{}", shown(value),
+                                 outputs > 0 ? "Infinity or " : "",
+                                 value.is_null() ? " (JSON libraries write null for NaN and infinities: "
+                                                   "where the model excludes a point, let it give -1e100)"
+                                                 : ""));
   }
   return number;
 }

@@ -183,9 +183,11 @@ TEST_CASE("minus infinity is a value as Python writes it; other words are no num
   CHECK(values_of(model).maxCoeff() == -std::numeric_limits<double>::infinity());
   for (const std::string word : {"NaN", "null", "true", "\"abc\"", "[1]"}) {
     body = R"({"output": [[)" + word + "]]}";
-    CHECK_THAT(message_of(model),
-               Contains("expected a number or -Infinity; point 1 of 3 (a = 0.1, b = 0.2, c = 0.3)"));
+    CHECK_THAT(message_of(model), Contains("expected a number or -Infinity") &&
+                                      Contains("; point 1 of 3 (a = 0.1, b = 0.2, c = 0.3)"));
   }
+  body = R"({"output": [[null]]})";
+  CHECK_THAT(message_of(model), Contains("gave the output null") && Contains("let it give -1e100"));
   for (const std::string word : {"Infinity", "1e400", ""}) {
     body = R"({"output": [[)" + word + "]]}";
     CHECK_THAT(message_of(model), Contains("; point 1 of 3"));
@@ -211,7 +213,11 @@ TEST_CASE("an error of the model is told in its words, names the point and is no
     CHECK(server.requests == 2);
   }
   server.evaluate = [](const json&, httplib::Response& r) { answer(r, "Internal Server Error", 500); };
-  CHECK_THAT(message_of(UmBridge(server.options())), Contains("status 500: expected 200; point 1 of 3"));
+  CHECK_THAT(message_of(UmBridge(server.options())),
+             Contains("status 500 (Internal Server Error): expected 200; point 1 of 3"));
+  server.evaluate = [](const json&, httplib::Response&) { throw std::runtime_error("no mesh"); };
+  CHECK_THAT(message_of(UmBridge(server.options())),
+             Contains("status 500 (no mesh): expected 200; point 1 of 3"));
   server.evaluate = [](const json&, httplib::Response& r) { answer(r, "[1, 2"); };
   CHECK_THAT(message_of(UmBridge(server.options())), Contains("answered '[1, 2': expected a JSON object"));
   server.evaluate = [](const json&, httplib::Response& r) { answer(r, R"({"error": 3})"); };
