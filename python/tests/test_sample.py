@@ -18,6 +18,7 @@ import tmcmc
 
 BOX = {"a": (-3.0, 3.0), "b": (-2.0, 4.0)}
 SMALL = 2600
+ROOT = Path(__file__).parents[2]
 
 
 def gaussian(points):
@@ -318,6 +319,53 @@ def test_same_bytes_as_the_executable(tmp_path):
     table = np.loadtxt(tmp_path / "samples.csv", delimiter=",", skiprows=1)
     assert table[:, :-1].tobytes() == result.samples.tobytes()
     assert table[:, -1].tobytes() == result.log_likelihood.tobytes()
+
+
+def bouc_wen():
+    path = str(ROOT / "examples" / "bouc_wen")
+    sys.path.insert(0, path)
+    try:
+        import bouc_wen as model
+        import module as script
+    finally:
+        sys.path.remove(path)
+    return model, script.PRIOR
+
+
+@pytest.mark.parametrize("finish", ["none", "independent"])
+def test_a_worker_gives_the_bytes_of_the_module(tmp_path, finish):
+    executable = ROOT / "build" / "release" / "bin" / "own_model"
+    if not executable.exists():
+        pytest.skip("own_model is not built (make build)")
+    model, prior = bouc_wen()
+    result = tmcmc.sample(model.log_likelihood, prior, evaluations=2600, finish=finish)
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    problem = str(ROOT / "examples" / "bouc_wen.toml")
+    options = ["--evaluations", "2600", "--finish", finish, "--quiet", "--output", str(tmp_path / "worker.csv")]
+    subprocess.run([str(executable), problem, *options], check=True, env={**os.environ, "PATH": path})
+    with open(tmp_path / "worker.csv") as file:
+        rows = list(csv.DictReader(file))
+    for j, name in enumerate(prior):
+        assert [float(row[name]) for row in rows] == result.samples[:, j].tolist()
+    assert [float(row["log_likelihood"]) for row in rows] == result.log_likelihood.tolist()
+
+
+def test_nearly_all_time_is_spent_in_a_batch_likelihood_in_numpy():
+    """The sampler, its conversions and checks take less than a tenth of the processor time, the sampler in C++ alone included."""
+    model, prior = bouc_wen()
+    inside = 0.0
+
+    def timed(points):
+        nonlocal inside
+        start = time.process_time()
+        values = model.log_likelihood(points)
+        inside += time.process_time() - start
+        return values
+
+    start = time.process_time()
+    tmcmc.sample(timed, prior, evaluations=5000)
+    total = time.process_time() - start
+    assert total - inside < 0.1 * total
 
 
 def test_the_program_in_the_readme_runs_as_printed(tmp_path):
