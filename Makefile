@@ -36,7 +36,7 @@ build:
 clean:
 	rm -rf build $(GEN)/sampling_study_samples.csv
 
-include tools/packages.mk tools/checks.mk tools/rig.mk
+include tools/packages.mk tools/checks.mk tools/rig.mk tools/site.mk
 
 # ---------------------------------------------------------------- results
 

@@ -33,7 +33,7 @@ identical: | sanitize-deps $(filter deps,$(MAKECMDGOALS))
 
 #: make format-check  whether clang-format would change a source
 format-check: | format-deps
-	find src experiments examples tests bench -name '*.[ch]pp' | xargs clang-format --dry-run --Werror
+	find src experiments examples tests bench site -path site/node_modules -prune -o -name '*.[ch]pp' -print | xargs clang-format --dry-run --Werror
 
 #: make reuse       whether each file has a copyright holder and a licence (REUSE)
 reuse: | reuse-deps
