@@ -178,6 +178,7 @@ figures/fig12_cost_accuracy.pdf: $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_grow
 figures/fig13_calibration.pdf: $(GEN)/calibration_ranks.csv
 figures/fig14_forensics.pdf: $(GEN)/forensics_pairs.csv
 figures/fig15_prior_sensitivity.pdf: $(GEN)/prior_sensitivity_pbox.csv
+figures/fig16_arena.pdf: $(GEN)/benchmark_problems.csv
 
 # ---------------------------------------------------------------- replication report, and the tables in the README
 

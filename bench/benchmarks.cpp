@@ -233,7 +233,7 @@ BENCHMARK(one_run_with_prior)->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
 /// TMCMC's posterior by independent draws from a fitted density.
 void one_run_with_independent_draws(benchmark::State& state) {
   const Setting s;
-  auto options = tmcmc::recommended_options(state.range(0));
+  auto options = tmcmc::recommended_moves(state.range(0));
   options.finish = tmcmc::IndependentDraws{};
   std::uint32_t run = 0;
   for (auto _ : state) {

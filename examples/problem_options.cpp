@@ -186,7 +186,7 @@ tmcmc::Options ProblemOptions::sampler() const {
   tmcmc::Options options;
   try {
     const auto chains = given("chains");
-    options = tmcmc::recommended_options(evaluations, chains ? std::stol(*chains) : default_chains);
+    options = tmcmc::recommended_moves(evaluations, chains ? std::stol(*chains) : default_chains);
   } catch (const errors::InvalidValue& error) {
     const std::string name = error.field().substr(error.field().find('.') + 1);
     throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), error.value()), "",

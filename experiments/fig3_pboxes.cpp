@@ -26,11 +26,7 @@ int main(int argc, char** argv) {
     report("{:<12} {:<24} {:>12} {:>12} {:>14}\n", "sampler", "parameter", "smallest", "largest", "area");
     for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
       for (std::size_t c = 0; c < samples.columns.size(); ++c) {
-        std::vector<pbox::Ecdf> ecdfs;
-        for (const auto& run : samples.values[s][c]) {
-          ecdfs.emplace_back(run);
-        }
-        const auto box = pbox::envelope(ecdfs);
+        const auto box = pbox::envelope(samples.ecdfs(s, c));
         const double low = box.x.front();
         const double high = box.x.back();
         report("{:<12} {:<24} {:>12.5g} {:>12.5g} {:>14.6g}\n", samples.samplers[s], samples.columns[c], low,

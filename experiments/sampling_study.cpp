@@ -72,7 +72,9 @@ int main(int argc, char** argv) {
   SamplerOptions sampler;
   RunOptions run_options;
   std::string runs_output, stages_output;
-  add_output(app, output, "CSV of all posterior samples: sampler, run and the four parameters");
+  add_output(app, output,
+             "CSV of all posterior samples: sampler, run, the four parameters, and weight with --finish "
+             "independent");
   add_output(app, "--runs-output", runs_output, "CSV with one row a run: iterations, log-evidence, moments");
   add_output(app, "--stages-output", stages_output, "CSV with one row a stage of each run");
   inputs.add_observations_to(app);
@@ -90,7 +92,8 @@ int main(int argc, char** argv) {
     const auto arms = replication::paper_arms(reading, sampler.cov_target, sampler.ess_fraction);
     const auto options = run_options.study_options();
 
-    auto samples_csv = open_csv(output, replication::sample_columns());
+    const bool is_weighted = std::holds_alternative<tmcmc::IndependentDraws>(reading.sampler.finish);
+    auto samples_csv = open_csv(output, replication::sample_columns(is_weighted));
     auto runs_csv = open_csv(runs_output, replication::run_columns(sampler.diagnose));
     auto stages_csv = open_csv(stages_output, replication::stage_columns());
 
@@ -105,7 +108,7 @@ int main(int argc, char** argv) {
     for (std::size_t a = 0; a < arms.size(); ++a) {
       for (std::size_t i = 0; i < results[a].size(); ++i) {
         if (samples_csv) {
-          replication::write_samples(*samples_csv, arms[a].name, i, results[a][i]);
+          replication::write_samples(*samples_csv, arms[a].name, i, results[a][i], is_weighted);
         }
         if (runs_csv) {
           replication::write_run(*runs_csv, arms[a].name, i, results[a][i], sampler.diagnose);

@@ -1,7 +1,7 @@
 // Table 3: area of the p-box of the runs' ECDFs (Eq. 25), for each sampler and parameter.
 //
 // Data: the samples that sampling_study writes; any CSV with columns sampler, run and one or more parameters
-// will do, also with unequal numbers of samples a run.
+// will do, also with unequal numbers of samples a run. A column weight holds weights of the samples.
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"
@@ -30,12 +30,8 @@ int main(int argc, char** argv) {
     for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
       std::vector<double> areas;
       report("{:<12}", samples.samplers[s]);
-      for (const auto& runs : samples.values[s]) {
-        std::vector<pbox::Ecdf> ecdfs;
-        for (const auto& run : runs) {
-          ecdfs.emplace_back(run);
-        }
-        areas.push_back(pbox::area_metric(ecdfs));
+      for (std::size_t c = 0; c < samples.columns.size(); ++c) {
+        areas.push_back(pbox::area_metric(samples.ecdfs(s, c)));
         report(" {:>22.6g}", areas.back());
       }
       report("\n");

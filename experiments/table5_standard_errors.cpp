@@ -31,11 +31,11 @@ int main(int argc, char** argv) {
       for (std::size_t c = 0; c < samples.columns.size(); ++c) {
         std::vector<double> means, variances;
         double count = 0.0;
-        for (const auto& run : samples.values[s][c]) {
-          const auto m = replication::moments(run);
+        for (std::size_t run = 0; run < samples.values[s][c].size(); ++run) {
+          const auto m = samples.moments_of(s, c, run);
           means.push_back(m.mean);
           variances.push_back(m.standard_deviation * m.standard_deviation);
-          count += static_cast<double>(run.size());
+          count += static_cast<double>(samples.values[s][c][run].size());
         }
         count /= static_cast<double>(means.size());
         const auto m = replication::moments(means);

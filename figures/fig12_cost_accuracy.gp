@@ -12,8 +12,8 @@ area(name) = 'area_'.name
 budget = 31000
 orange = '#E69F00'
 sky = '#56B4E9'
-families = 'criterion samples steps scale moves chains recommended independent'
-titles = '"Criterion: N_{eff} from 0.9 N to 0.1 N" "Samples: N from 300 to 10 000" "Steps: 1 to 20" "Scale of the proposal" "Better proposals, one by one" "Waste-free, 8 to 128 chains" "Recommended, six budgets" "Independent draws, four budgets"'
+families = '"criterion" "samples" "steps" "scale" "moves" "chains" "better moves" "recommended" "recommended CoV = 1"'
+titles = '"Criterion: N_{eff} from 0.9 N to 0.1 N" "Samples: N from 300 to 10 000" "Steps: 1 to 20" "Scale of the proposal" "Better proposals, one by one" "Waste-free, 8 to 128 chains" "The best of these, six budgets" "Recommended, {/:Italic N}/2, four budgets" "Recommended, CoV = 1, four budgets"'
 set style line 21 lc rgb 'black' lw 0.9 pt 6 ps 0.6
 set style line 22 lc rgb sky lw 0.9 pt 5 ps 0.5
 set style line 23 lc rgb orange lw 0.9 pt 9 ps 0.6
@@ -22,6 +22,7 @@ set style line 25 lc rgb purple lw 0.9 pt 12 ps 0.7
 set style line 26 lc rgb purple lw 0.9 pt 13 ps 0.6
 set style line 27 lc rgb green lw 1.6 pt 7 ps 0.6
 set style line 28 lc rgb '#0072B2' lw 1.6 pt 5 ps 0.6
+set style line 29 lc rgb vermillion lw 1.3 pt 4 ps 0.9 dt (6, 3)
 
 set logscale xy
 set xrange [3000:1100000]
@@ -58,7 +59,7 @@ do for [panel = 1:3] {
     set yrange [0.0012:10]
     set ytics (0.002, 0.01, 0.05, 0.2, 1, 5) format '%g'
   }
-  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 maxrows 13 Left reverse samplen 2 width 0 spacing 1.05 font ',7.5' } else { unset key }
+  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 maxrows 14 Left reverse samplen 2 width 0 spacing 1.05 font ',7.5' } else { unset key }
   show_floor = panel < 3 ? 1 : NaN
   plot floor_areas using (3000): \
          (strcol('runs') eq '50' && strcol('samples') eq '1000' && panel < 3 ? column(name) : NaN):(1097000):(0) \
@@ -66,14 +67,12 @@ do for [panel = 1:3] {
        floor_areas using (3000): \
          (strcol('runs') eq '50' && strcol('samples') eq '16000' && panel < 3 ? column(name) : NaN):(1097000):(0) \
          with vectors nohead ls EXACT dt '.', \
-       for [i = 1:8] settings using 'evaluations':(own(word(families, i), quantity)) with points ls 20 + i, \
-       settings using 'evaluations':(strcol('family') eq 'recommended' ? column(quantity) : 1/0) with lines ls 27, \
-       settings using 'evaluations':(strcol('family') eq 'independent' ? column(quantity) : 1/0) with lines ls 28, \
+       for [i = 1:9] settings using 'evaluations':(own(word(families, i), quantity)) with points ls 20 + i, \
+       for [i = 7:9] settings using 'evaluations':(strcol('family') eq word(families, i) ? column(quantity) : 1/0) with lines ls 20 + i, \
        settings using 'evaluations':(own('published', quantity)) with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion, \
        keyentry with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion title 'Published setting', \
        for [i = 1:6] keyentry with points ls 20 + i title word(titles, i), \
-       keyentry with linespoints ls 27 title word(titles, 7), \
-       keyentry with linespoints ls 28 title word(titles, 8), \
+       for [i = 7:9] keyentry with linespoints ls 20 + i title word(titles, i), \
        keyentry with lines ls EXACT dt '-' title '50 runs of 1000 exact draws', \
        keyentry with lines ls EXACT dt '.' title '50 runs of 16 000 exact draws', \
        keyentry with lines lc rgb grey dt (4, 4) lw 0.9 title '31 000 evaluations'

@@ -82,7 +82,7 @@ using GivenOptions = std::map<std::string, std::string>;
 /// The recommended options with those that were given, whose names the caller has checked.
 tmcmc::Options options_of(long evaluations, long chains, const GivenOptions& given) {
   try {
-    tmcmc::Options options = tmcmc::recommended_options(evaluations, chains);
+    tmcmc::Options options = tmcmc::recommended_moves(evaluations, chains);
     for (const auto& option : tmcmc::option_table()) {  // in the order in which they can be set
       if (const auto found = given.find(std::string(option.name)); found != given.end()) {
         tmcmc::set_option(options, option.name, found->second);

@@ -22,9 +22,8 @@ std::vector<Jump> sorted_jumps(std::span<const Ecdf> ecdfs) {
   std::vector<Jump> jumps;
   jumps.reserve(total);
   for (const Ecdf& ecdf : ecdfs) {
-    const auto n = static_cast<double>(ecdf.size());
     for (std::size_t k = 0; k < ecdf.size(); ++k) {
-      jumps.push_back({ecdf.sorted()[k], static_cast<double>(k) / n, static_cast<double>(k + 1) / n});
+      jumps.push_back({ecdf.sorted()[k], ecdf.level(k), ecdf.level(k + 1)});
     }
   }
   std::sort(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) { return a.x < b.x; });
@@ -85,10 +84,44 @@ Ecdf::Ecdf(std::vector<double> samples) : sorted_(std::move(samples)) {
   std::sort(sorted_.begin(), sorted_.end());
 }
 
+Ecdf::Ecdf(std::vector<double> samples, std::span<const double> weights) {
+  if (weights.size() != samples.size()) {
+    throw errors::InvalidValue("weights", weights.size(),
+                               "one for each of the " + std::to_string(samples.size()) + " samples");
+  }
+  bool are_equal = true;
+  std::vector<std::pair<double, double>> weighted;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (!(weights[i] >= 0.0) || !std::isfinite(weights[i])) {
+      throw errors::InvalidValue("weights[" + std::to_string(i) + "]", weights[i],
+                                 "a finite number of at least 0");
+    }
+    are_equal = are_equal && weights[i] == weights[0] && weights[i] > 0.0;
+    if (weights[i] > 0.0) weighted.emplace_back(samples[i], weights[i]);
+  }
+  if (are_equal || weighted.empty()) {
+    if (!samples.empty() && weighted.empty())
+      throw errors::InvalidValue("weights", 0.0, "a positive one among them");
+    *this = Ecdf(std::move(samples));
+    return;
+  }
+  std::vector<double> kept;
+  for (const auto& [x, weight] : weighted) kept.push_back(x);
+  *this = Ecdf(std::move(kept));  // which checks the samples
+  std::stable_sort(weighted.begin(), weighted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  const double largest = std::max_element(weighted.begin(), weighted.end(), [](const auto& a, const auto& b) {
+                           return a.second < b.second;
+                         })->second;
+  double sum = 0.0;
+  for (const auto& [x, weight] : weighted) levels_.push_back(sum += weight / largest);
+  for (double& level : levels_) level /= sum;
+}
+
 double Ecdf::operator()(double x) const {
   if (std::isnan(x)) return x;
   const auto above = std::upper_bound(sorted_.begin(), sorted_.end(), x);
-  return static_cast<double>(above - sorted_.begin()) / static_cast<double>(sorted_.size());
+  return level(static_cast<std::size_t>(above - sorted_.begin()));
 }
 
 PBox envelope(std::span<const Ecdf> ecdfs) {
@@ -139,8 +172,8 @@ double area(const PBox& box) {
 double area_metric(std::span<const Ecdf> ecdfs) {
   require_ecdfs(ecdfs);
   const std::size_t n = ecdfs.front().size();
-  const bool equal_sizes =
-      std::all_of(ecdfs.begin(), ecdfs.end(), [n](const Ecdf& ecdf) { return ecdf.size() == n; });
+  const bool equal_sizes = std::all_of(
+      ecdfs.begin(), ecdfs.end(), [n](const Ecdf& ecdf) { return ecdf.size() == n && !ecdf.is_weighted(); });
   return equal_sizes ? area_by_ranks(ecdfs) : area(envelope(ecdfs));
 }
 

@@ -15,16 +15,28 @@ class Ecdf {
   /// Sorts the samples, O(n log n). Throws errors::InvalidValue if there is none or one is not finite.
   explicit Ecdf(std::vector<double> samples);
 
-  /// The fraction of the samples that are <= x: a step function, continuous from the right; NaN at NaN. O(log n).
+  /// The same of weighted samples: the fraction of the weight at samples <= x. Samples of weight 0 are left out; equal weights
+  /// give the function of the samples alone, to the last bit. Throws errors::InvalidValue unless there is a finite weight
+  /// of at least 0 for each sample, and a positive one among them.
+  Ecdf(std::vector<double> samples, std::span<const double> weights);
+
+  /// The fraction of the samples (of their weight) that are <= x: a step function, continuous from the right; NaN at NaN. O(log n).
   double operator()(double x) const;
 
   /// The samples in ascending order, duplicates kept.
   std::span<const double> sorted() const noexcept { return sorted_; }
   /// Number of samples.
   std::size_t size() const noexcept { return sorted_.size(); }
+  /// Whether the samples have different weights.
+  bool is_weighted() const noexcept { return !levels_.empty(); }
+  /// The value at and right of the first k sorted samples; 0 for k = 0.
+  double level(std::size_t k) const {
+    return k > 0 && is_weighted() ? levels_[k - 1] : static_cast<double>(k) / static_cast<double>(size());
+  }
 
  private:
   std::vector<double> sorted_;
+  std::vector<double> levels_;  // after each of the sorted samples; empty for equal weights
 };
 
 /// Right-continuous step bounds of a set of distribution functions: on [x[i], x[i+1]) all of them lie in
@@ -54,7 +66,7 @@ Bounds evaluate(const PBox& box, double x);
 double area(const PBox& box);
 
 /// area(envelope(ecdfs)), in the unit of the samples; for two ECDFs their 1-Wasserstein distance.
-/// If all samples have the same size n it is computed without building the p-box, in O(M), as
+/// If all samples have the same size n and none is weighted it is computed without building the p-box, in O(M), as
 ///
 ///     (1/n) * sum over ranks k of (max over r of x_r(k) - min over r of x_r(k)),
 ///

@@ -42,16 +42,17 @@ struct Configuration {
   tmcmc::Options options;  ///< complete options of the sampler
 };
 
-/// R runs of a configuration, as run_arm(). With independent draws, the samples of a run are 1000 points that are drawn from the
-/// weighted ones (multinomial resampling: their p-box has the area of independent draws and no less), its moments those of all
-/// weighted draws.
-/// \throws as run_arm.
-[[nodiscard]] std::vector<Run> run_configuration(const tmcmc::Problem& problem,
-                                                 const Configuration& configuration, std::uint32_t arm_index,
-                                                 const StudyOptions& options);
+/// P-box areas of a study, one entry a parameter. Of weighted samples 1000 are drawn for each run, as many as the paper's runs have:
+/// by multinomial resampling, so that their p-box has the area of independent draws and no less. That is done ten times over,
+/// each with an area of its own, since the area of 1000 draws scatters more than what it is to show.
+/// \param runs  of the study options.study and of the arm
+[[nodiscard]] std::vector<Eigen::VectorXd> paper_sized_areas(const std::vector<Run>& runs,
+                                                             std::uint32_t arm_index,
+                                                             const StudyOptions& options);
 
 /// The settings that the comparison of cost and accuracy runs through: one change at a time to `published`, then changes
-/// of the moves added up, then the recommended options and independent draws for several budgets. All with Options::diagnose.
+/// of the moves added up, then the best of these and the recommended options, under either rule, for several budgets. All with
+/// Options::diagnose.
 /// \param published  the sampler of the paper (N = 1000, N_eff = N/2, 3 steps)
 [[nodiscard]] std::vector<Configuration> configurations(const tmcmc::Options& published);
 

@@ -32,7 +32,7 @@ tmcmc::Options options_of(const BenchmarkProblem& problem, BenchmarkSampler samp
     options.criterion = tmcmc::effective_sample_size_rule(0.5);
     options.evaluation_budget = evaluations;
   } else {
-    options = tmcmc::recommended_options(evaluations);
+    options = tmcmc::recommended_moves(evaluations);
   }
   if (sampler == BenchmarkSampler::independent_draws) {
     options.finish = tmcmc::IndependentDraws{};

@@ -10,7 +10,7 @@ namespace replication {
 /// The samplers that the benchmark compares, each at the same number of evaluations.
 enum class BenchmarkSampler {
   published,  ///< the paper's, N_eff = N/2 and N = evaluations / 31: 31 000 evaluations are ten of its stages
-  recommended,       ///< tmcmc::recommended_options() as far as TMCMC goes
+  recommended,       ///< tmcmc::recommended_moves(): TMCMC with better moves
   independent_draws  ///< found by TMCMC, measured by independent draws
 };
 

@@ -9,6 +9,7 @@
 #include "errors/invalid_value.hpp"
 #include "friction/angle.hpp"
 #include "tmcmc/parallel.hpp"
+#include "tmcmc/weighted_samples.hpp"
 
 namespace replication {
 
@@ -118,21 +119,28 @@ CalibrationResult calibrate(const friction::Observations& design, const Reading&
   const auto replications = static_cast<std::size_t>(options.replications);
   CalibrationResult result;
   result.ranks.assign(static_cast<std::size_t>(prior.dimension()), std::vector<tmcmc::Index>(replications));
-  std::vector<char> unfinished(replications, 0);
+  std::vector<char> unfinished(replications, 0), warned(replications, 0);
   tmcmc::for_each_block(
       options.replications, 1, options.threads, [&](tmcmc::Index index, tmcmc::Index, tmcmc::Index) {
         const auto replication = static_cast<std::uint32_t>(index);
         const auto pair = simulate_pair(design, reading.physics, prior, options.seed, replication);
-        const auto run = tmcmc::run(problem(reading, pair.observations, prior), arm.options,
-                                    {.seed = options.seed, .arm = arm_index, .run = replication});
+        const tmcmc::StreamKey key{.seed = options.seed, .arm = arm_index, .run = replication};
+        const auto run = tmcmc::run(problem(reading, pair.observations, prior), arm.options, key);
         unfinished[static_cast<std::size_t>(index)] = run.stop == tmcmc::StopReason::completed ? 0 : 1;
-        rank(run.final.points, pair.parameters, options.draws, index, result);
+        warned[static_cast<std::size_t>(index)] = run.diagnostics.warnings.empty() ? 0 : 1;
+        rank(run.measurement
+                 ? tmcmc::equally_weighted(run, options.draws, key, tmcmc::Resampling::multinomial)
+                 : run.final.points,
+             pair.parameters, options.draws, index, result);
         if (observer) {
           observer();
         }
       });
   for (const char flag : unfinished) {
     result.unfinished += flag;
+  }
+  for (const char flag : warned) {
+    result.warned += flag;
   }
   return result;
 }

@@ -15,7 +15,7 @@ namespace replication {
 struct CalibrationOptions {
   tmcmc::Index replications = 2000;  ///< simulated data sets
   tmcmc::Index draws =
-      99;  ///< posterior draws that the truth is ranked among: evenly spaced rows of the final population
+      99;  ///< posterior draws that the truth is ranked among: evenly spaced rows of the final population, or, where its samples are weighted, drawn from them (multinomial)
   tmcmc::Index bins = 20;  ///< of the rank histogram; has to divide draws + 1
   std::uint64_t seed = 1;  ///< of the simulated pairs and of the runs
   int threads = 1;         ///< over the replications
@@ -28,7 +28,8 @@ struct CalibrationOptions {
 struct CalibrationResult {
   std::vector<std::vector<tmcmc::Index>> ranks;  ///< [parameter][replication], from 0 to draws
   tmcmc::Index unfinished =
-      0;  ///< runs that ended before beta = 1; their last population is ranked all the same
+      0;                    ///< runs that ended before beta = 1; their last population is ranked all the same
+  tmcmc::Index warned = 0;  ///< runs with a warning (Options::diagnose); ranked all the same
 };
 
 /// Parameters from the prior, and observations from them: the nominal ratio and the phase of each row of the

@@ -1,6 +1,7 @@
 #include "replication/posterior_tables.hpp"
 
 #include <limits>
+#include <numeric>
 
 #include "pbox/pbox.hpp"
 
@@ -63,11 +64,7 @@ std::vector<PboxPoint> pbox_points(const GroupedColumns& samples, const estimati
   std::vector<PboxPoint> all;
   for (std::size_t s = 0; s < samples.samplers.size(); ++s) {
     for (std::size_t p = 0; p < friction::parameter_count; ++p) {
-      std::vector<pbox::Ecdf> ecdfs;
-      for (const auto& run : samples.values[s][p]) {
-        ecdfs.emplace_back(run);
-      }
-      const auto box = pbox::envelope(ecdfs);
+      const auto box = pbox::envelope(samples.ecdfs(s, p));
       const auto& exact = marginal(posterior, p);
       const auto range = drawn_range(exact);
       for (long i = 0; i < points; ++i) {
@@ -88,15 +85,21 @@ std::vector<HistogramBin> sample_histograms(const GroupedColumns& samples,
     for (std::size_t p = 0; p < friction::parameter_count; ++p) {
       const auto range = drawn_range(marginal(posterior, p));
       const double width = range.width() / static_cast<double>(bins);
-      std::vector<double> pooled;
-      for (const auto& run : samples.values[s][p]) {
-        pooled.insert(pooled.end(), run.begin(), run.end());
+      std::vector<double> pooled, weights;
+      for (std::size_t run = 0; run < samples.values[s][p].size(); ++run) {
+        const auto& of_run = samples.values[s][p][run];
+        pooled.insert(pooled.end(), of_run.begin(), of_run.end());
+        if (samples.weights.empty()) {
+          weights.resize(pooled.size(), 1.0);
+        } else {
+          weights.insert(weights.end(), samples.weights[s][run].begin(), samples.weights[s][run].end());
+        }
       }
-      const double mass = static_cast<double>(pooled.size()) * width;
-      const auto counts = statistics::histogram(pooled, range.lower, range.upper, bins);
+      const double mass = std::accumulate(weights.begin(), weights.end(), 0.0) * width;
+      const auto counts = statistics::histogram(pooled, weights, range.lower, range.upper, bins);
       for (std::size_t b = 0; b < counts.size(); ++b) {
         const double low = range.lower + width * static_cast<double>(b);
-        all.push_back({samples.samplers[s], p, low, low + width, static_cast<double>(counts[b]) / mass});
+        all.push_back({samples.samplers[s], p, low, low + width, counts[b] / mass});
       }
     }
   }

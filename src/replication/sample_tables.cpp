@@ -16,6 +16,32 @@ namespace replication {
 namespace {
 
 constexpr double most_ordinary_number = 1e100;  // sums and squares do not overflow
+const std::string weight_column = "weight";
+
+/// In each run of a sampler a weight above 0.
+std::vector<std::vector<std::vector<double>>> weights_of(
+    const io::CsvTable& table, const std::vector<std::map<long, std::size_t>>& runs,
+    const std::vector<std::pair<std::size_t, std::size_t>>& place) {
+  const auto numbers = checked(
+      table, weight_column, table.numbers(weight_column),
+      [](double x) { return x >= 0.0 && x <= most_ordinary_number; }, "a number from 0 to 1e100");
+  std::vector<std::vector<std::vector<double>>> weights;
+  for (const auto& of_sampler : runs) {
+    weights.emplace_back(of_sampler.size());
+  }
+  for (std::size_t row = 0; row < numbers.size(); ++row) {
+    weights[place[row].first][place[row].second].push_back(numbers[row]);
+  }
+  for (const auto& of_sampler : weights) {
+    for (const auto& of_run : of_sampler) {
+      if (*std::max_element(of_run.begin(), of_run.end()) <= 0.0) {
+        throw io::InputError(table.path().string() +
+                             ": column 'weight': expected a positive weight in each run");
+      }
+    }
+  }
+  return weights;
+}
 
 }  // namespace
 
@@ -42,7 +68,7 @@ GroupedColumns read_samples(const io::CsvTable& table) {
     place.emplace_back(s, run);
   }
   for (const auto& name : table.column_names()) {
-    if (name != "sampler" && name != "run") {
+    if (name != "sampler" && name != "run" && name != weight_column) {
       result.columns.push_back(name);
     }
   }
@@ -62,13 +88,32 @@ GroupedColumns read_samples(const io::CsvTable& table) {
       result.values[place[row].first][c][place[row].second].push_back(numbers[row]);
     }
   }
+  const auto& names = table.column_names();
+  if (std::find(names.begin(), names.end(), weight_column) != names.end()) {
+    result.weights = weights_of(table, run_index, place);
+  }
   return result;
+}
+
+statistics::Moments GroupedColumns::moments_of(std::size_t sampler, std::size_t column,
+                                               std::size_t run) const {
+  const auto& of_run = values[sampler][column][run];
+  return weights.empty() ? moments(of_run) : moments(of_run, weights[sampler][run]);
+}
+
+std::vector<pbox::Ecdf> GroupedColumns::ecdfs(std::size_t sampler, std::size_t column) const {
+  std::vector<pbox::Ecdf> all;
+  for (std::size_t run = 0; run < values[sampler][column].size(); ++run) {
+    const auto& of_run = values[sampler][column][run];
+    all.push_back(weights.empty() ? pbox::Ecdf(of_run) : pbox::Ecdf(of_run, weights[sampler][run]));
+  }
+  return all;
 }
 
 GroupedColumns read_samples(const io::CsvTable& table, const std::vector<std::string>& names,
                             const std::string& expected) {
   GroupedColumns all = read_samples(table);
-  GroupedColumns chosen{all.samplers, names, {}};
+  GroupedColumns chosen{all.samplers, names, {}, all.weights};
   chosen.values.resize(all.samplers.size());
   for (const auto& name : names) {
     const auto found = std::find(all.columns.begin(), all.columns.end(), name);
@@ -131,9 +176,12 @@ std::vector<double> diagnosed_cells(const Run& run) {
   return cells;
 }
 
-std::vector<std::string> sample_columns() {
+std::vector<std::string> sample_columns(bool is_weighted) {
   std::vector<std::string> columns = {"sampler", "run"};
   columns.insert(columns.end(), parameter_columns.begin(), parameter_columns.end());
+  if (is_weighted) {
+    columns.push_back(weight_column);
+  }
   return columns;
 }
 
@@ -153,10 +201,12 @@ std::vector<std::string> stage_columns() {
           "redraws"};
 }
 
-void write_samples(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run) {
+void write_samples(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run,
+                   bool is_weighted) {
   const auto& points = run.result.final.points;
   for (Eigen::Index row = 0; row < points.rows(); ++row) {
-    table.row(sampler, index, points(row, 0), points(row, 1), points(row, 2), points(row, 3));
+    const auto weight = is_weighted ? std::vector<double>{run.result.weights[row]} : std::vector<double>();
+    table.row(sampler, index, points(row, 0), points(row, 1), points(row, 2), points(row, 3), weight);
   }
 }
 

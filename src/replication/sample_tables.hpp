@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/csv.hpp"
+#include "pbox/pbox.hpp"
 #include "replication/study.hpp"
 
 namespace replication {
@@ -16,13 +17,21 @@ namespace replication {
 struct GroupedColumns {
   /// In the order in which they first appear.
   std::vector<std::string> samplers;
-  /// All but sampler and run.
+  /// All but sampler, run and weight.
   std::vector<std::string> columns;
   /// values[sampler][column][run]: the numbers in the order of the file
   std::vector<std::vector<std::vector<std::vector<double>>>> values;
+  /// weights[sampler][run] from the column `weight`; empty without it, when all samples count the same
+  std::vector<std::vector<std::vector<double>>> weights = {};
+
+  /// Mean and standard deviation of a column of a run, weighted.
+  [[nodiscard]] statistics::Moments moments_of(std::size_t sampler, std::size_t column,
+                                               std::size_t run) const;
+  /// Distribution functions of a column, one a run, weighted.
+  [[nodiscard]] std::vector<pbox::Ecdf> ecdfs(std::size_t sampler, std::size_t column) const;
 };
 
-/// Reads samples of a study (any parameters), grouped by sampler and run.
+/// Reads samples of a study (any parameters), grouped by sampler and run. A column `weight` holds the weights of the samples.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] GroupedColumns read_samples(const std::string& path);
 /// The same of a table that was read.
@@ -49,13 +58,15 @@ struct GroupedColumns {
 [[nodiscard]] std::vector<double> diagnosed_cells(const Run& run);
 
 /// Columns of the samples of a study, and of the stages of its runs.
-[[nodiscard]] std::vector<std::string> sample_columns();
+/// \param is_weighted  whether there is a column `weight`
+[[nodiscard]] std::vector<std::string> sample_columns(bool is_weighted = false);
 /// See sample_columns.
 [[nodiscard]] std::vector<std::string> stage_columns();
 
-/// The samples of a run as rows of a table with sample_columns().
+/// The samples of a run as rows of a table with sample_columns(is_weighted).
 /// \throws as io::CsvWriter::row, as the two below.
-void write_samples(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run);
+void write_samples(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run,
+                   bool is_weighted = false);
 /// A run as a row of a table with run_columns(diagnosed).
 void write_run(io::CsvWriter& table, const std::string& sampler, std::size_t index, const Run& run,
                bool diagnosed);

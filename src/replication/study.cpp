@@ -47,7 +47,8 @@ Run run_one(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_ind
   run.mean.resize(points.cols());
   run.standard_deviation.resize(points.cols());
   for (tmcmc::Index j = 0; j < points.cols(); ++j) {
-    const Moments m = moments({points.col(j).data(), static_cast<std::size_t>(points.rows())});
+    const Moments m = moments({points.col(j).data(), static_cast<std::size_t>(points.rows())},
+                              tmcmc::as_span(run.result.weights));
     run.mean[j] = m.mean;
     run.standard_deviation[j] = m.standard_deviation;
   }
@@ -80,7 +81,8 @@ Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads) {
     ecdfs.reserve(runs.size());
     for (const Run& run : runs) {
       const auto column = run.result.final.points.col(j);
-      ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()));
+      ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()),
+                         tmcmc::as_span(run.result.weights));
     }
     areas[j] = pbox::area_metric(ecdfs);
   });

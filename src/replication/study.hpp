@@ -26,7 +26,7 @@ struct StudyOptions {
 
 /// One run: final samples, records of the stages, and moments.
 struct Run {
-  tmcmc::Result result;                ///< as the sampler returned it
+  tmcmc::Result result;                ///< as the sampler returned it; samples can be weighted
   Eigen::VectorXd mean;                ///< of the final samples, one entry a parameter
   Eigen::VectorXd standard_deviation;  ///< of the final samples (N - 1)
 

@@ -24,6 +24,26 @@ Moments moments(std::span<const double> values) {
   return {mean, std::sqrt(squares / (count - 1.0))};
 }
 
+Moments moments(std::span<const double> values, std::span<const double> weights) {
+  if (weights.size() != values.size()) {
+    throw errors::InvalidValue("weights", weights.size(), "one for each value");
+  }
+  if (std::all_of(weights.begin(), weights.end(), [&](double w) { return w > 0.0 && w == weights[0]; })) {
+    return moments(values);
+  }
+  const auto sum = [&](auto term) {
+    return portable_math::sum_of(values.size(), [&](std::size_t i) { return term(values[i], weights[i]); });
+  };
+  const double total = sum([](double, double w) { return w; });
+  if (!(total > 0.0)) {
+    throw errors::InvalidValue("weights", total, "a positive one among them");
+  }
+  const double mean = sum([](double x, double w) { return w * x; }) / total;
+  const double squares = sum([mean](double x, double w) { return w * (x - mean) * (x - mean); });
+  const double of_weights = sum([](double, double w) { return w * w; });
+  return {mean, std::sqrt(squares / (total - of_weights / total))};
+}
+
 double root_mean_square(std::span<const double> values) {
   double squares = 0.0;
   for (const double value : values) {
@@ -56,6 +76,16 @@ EstimateError error_of(std::span<const double> estimates, double exact) {
 }
 
 std::vector<long> histogram(std::span<const double> values, double low, double high, long bins) {
+  const std::vector<double> ones(values.size(), 1.0);
+  const auto sums = histogram(values, ones, low, high, bins);
+  return {sums.begin(), sums.end()};
+}
+
+std::vector<double> histogram(std::span<const double> values, std::span<const double> weights, double low,
+                              double high, long bins) {
+  if (weights.size() != values.size()) {
+    throw errors::InvalidValue("weights", weights.size(), "one for each value");
+  }
   if (bins < 1) {
     throw errors::InvalidValue("bins", bins, "at least 1");
   }
@@ -63,14 +93,14 @@ std::vector<long> histogram(std::span<const double> values, double low, double h
     throw errors::InvalidValue("high", high, "more than the lower end");
   }
   const double width = (high - low) / static_cast<double>(bins);
-  std::vector<long> counts(static_cast<std::size_t>(bins));
-  for (const double x : values) {
-    const double bin = std::floor((x - low) / width);
+  std::vector<double> sums(static_cast<std::size_t>(bins));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double bin = std::floor((values[i] - low) / width);
     if (bin >= 0.0 && bin < static_cast<double>(bins)) {
-      ++counts[static_cast<std::size_t>(bin)];
+      sums[static_cast<std::size_t>(bin)] += weights[i];
     }
   }
-  return counts;
+  return sums;
 }
 
 }  // namespace statistics

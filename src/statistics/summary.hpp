@@ -17,6 +17,12 @@ struct Moments {
 /// \throws errors::InvalidValue if there is no value.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
+/// The same of weighted values: mean sum(w x) / W with W = sum(w), variance sum(w (x - mean)^2) / (W - sum(w^2) / W).
+/// Equal weights give moments() of the values to the last bit.
+/// \param weights  one a value, not negative
+/// \throws errors::InvalidValue for another number of weights, or if none is positive.
+[[nodiscard]] Moments moments(std::span<const double> values, std::span<const double> weights);
+
 /// Square root of the mean of the squares, summed in index order; 0 without a value.
 [[nodiscard]] double root_mean_square(std::span<const double> values);
 
@@ -58,5 +64,11 @@ struct EstimateError {
 /// values outside count in none.
 /// \throws errors::InvalidValue unless low < high and there is a bin.
 [[nodiscard]] std::vector<long> histogram(std::span<const double> values, double low, double high, long bins);
+
+/// The same with the sum of the weights in place of the number of values.
+/// \param weights  one a value
+/// \throws as histogram; errors::InvalidValue for another number of weights.
+[[nodiscard]] std::vector<double> histogram(std::span<const double> values, std::span<const double> weights,
+                                            double low, double high, long bins);
 
 }  // namespace statistics

@@ -59,7 +59,7 @@ void Options::validate() const {
   }
 }
 
-Options recommended_options(Index evaluations, Index chains) {
+Options recommended_moves(Index evaluations, Index chains) {
   if (chains < 1) {
     throw errors::InvalidValue("options.chains", chains, "at least 1");
   }
@@ -76,6 +76,15 @@ Options recommended_options(Index evaluations, Index chains) {
   options.proposal = MetropolisProposal{
       .coordinates = Coordinates::unbounded, .random_subsets = true, .independent_fraction = 0.5};
   options.evaluation_budget = evaluations;
+  return options;
+}
+
+Options recommended_options(Index evaluations, Index chains) {
+  constexpr Index fewest_measured = 3000;
+  Options options = recommended_moves(evaluations, chains);
+  if (evaluations >= fewest_measured) {
+    options.finish = IndependentDraws{};
+  }
   return options;
 }
 

@@ -35,6 +35,8 @@ check "--target-acceptance has an effect" test "$(cmp -s a.csv b.csv; echo $?)" 
 recommended="$study --sampler recommended --evaluation-budget 13000"
 $recommended --output recommended.csv --runs-output runs.csv
 check "no run of it needs more than its budget" awk -F, 'NR > 1 && $5 > 13000 {bad=1} END {exit bad || NR < 5}' runs.csv
+$recommended --output parts.csv --finish none
+check "and without independent draws" test "$(cmp -s recommended.csv parts.csv; echo $?)" = 1
 $recommended --output parts.csv --samples 1000 --chains 10 --move waste-free --resampling systematic \
   --scale-rule dimension --coordinates unbounded --random-subsets yes --independent-fraction 0.5 --boundary reject
 check "the recommended sampler part by part" cmp -s recommended.csv parts.csv

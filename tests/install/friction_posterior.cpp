@@ -46,9 +46,13 @@ int main() {
   };
   const tmcmc::Problem problem{log_likelihood, {Eigen::Vector2d(0.1, 2.0), Eigen::Vector2d(2.0, 4.0)}};
   const tmcmc::Result result = tmcmc::run(problem, tmcmc::recommended_options(), {.seed = 1});
-  const Eigen::RowVector2d mean = result.final.points.colwise().mean();
+  const auto n = static_cast<double>(result.weights.size());  // the weights have a mean of 1
+  const Eigen::RowVector2d mean = result.weights.transpose() * result.final.points / n;
   const Eigen::RowVector2d sd =
-      (result.final.points.rowwise() - mean).array().square().colwise().mean().sqrt().matrix();
+      (result.weights.transpose() * (result.final.points.rowwise() - mean).array().square().matrix() / n)
+          .array()
+          .sqrt()
+          .matrix();
   check(result.stop == tmcmc::StopReason::completed, "the run reaches the posterior");
   check(result.diagnostics.warnings.empty(), "no warnings");
   check(std::fabs(mean[0] - friction_force_n) < 0.5 * sd[0], "mean of the friction force");

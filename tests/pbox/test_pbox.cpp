@@ -235,3 +235,49 @@ TEST_CASE("an area is finite wherever a double holds it", "[pbox]") {
   CHECK(metric({{0.0}, {5e-324}}) == 5e-324);
   CHECK(metric({{0.0, 1e-310}, {0.0}}) == 0.5e-310);
 }
+
+TEST_CASE("a weighted ECDF has the fraction of the weight") {
+  const pbox::Ecdf ecdf({3.0, 1.0, 2.0, 9.0}, std::vector<double>{2.0, 1.0, 1.0, 0.0});
+  CHECK(ecdf(0.9) == 0.0);
+  CHECK(ecdf(1.0) == 0.25);
+  CHECK(ecdf(2.5) == 0.5);
+  CHECK(ecdf(3.0) == 1.0);
+  CHECK(ecdf.size() == 3);
+  CHECK(ecdf.is_weighted());
+}
+
+TEST_CASE("weights count as repeated samples do") {
+  const std::vector<double> a{1.0, 2.0, 4.0};
+  const std::vector<pbox::Ecdf> weighted{{a, std::vector<double>{3.0, 1.0, 2.0}},
+                                         pbox::Ecdf({1.5, 3.0, 3.5})};
+  const std::vector<pbox::Ecdf> repeated{pbox::Ecdf({1.0, 1.0, 1.0, 2.0, 4.0, 4.0}),
+                                         pbox::Ecdf({1.5, 3.0, 3.5})};
+  CHECK(pbox::area_metric(weighted) == Approx(pbox::area_metric(repeated)).epsilon(1e-14));
+  const auto box = pbox::envelope(weighted);
+  const auto same = pbox::envelope(repeated);
+  for (const double x : {0.5, 1.0, 1.7, 2.0, 3.2, 4.0, 5.0}) {
+    CAPTURE(x);
+    CHECK(pbox::evaluate(box, x).lower == Approx(pbox::evaluate(same, x).lower).epsilon(1e-14));
+    CHECK(pbox::evaluate(box, x).upper == Approx(pbox::evaluate(same, x).upper).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("equal weights give the unweighted area to the last bit; the scale of weights does not matter") {
+  const std::vector<double> a{0.1, 0.7, 0.3}, b{0.2, 0.9, 0.4}, ones(3, 0.7), w{1.0, 2.0, 3.0},
+      large{1e300, 2e300, 3e300};
+  CHECK(pbox::area_metric(std::vector<pbox::Ecdf>{{a, ones}, {b, ones}}) ==
+        pbox::area_metric(std::vector<pbox::Ecdf>{pbox::Ecdf(a), pbox::Ecdf(b)}));
+  CHECK(pbox::Ecdf(a, w)(0.3) == Approx(pbox::Ecdf(a, large)(0.3)).epsilon(1e-14));
+}
+
+TEST_CASE("bad weights are refused") {
+  const auto make = [](std::vector<double> samples, const std::vector<double>& weights) {
+    return pbox::Ecdf(std::move(samples), weights);
+  };
+  CHECK_THROWS_AS(make({1.0, 2.0}, {1.0}), errors::InvalidValue);
+  CHECK_THROWS_AS(make({1.0, 2.0}, {1.0, -1.0}), errors::InvalidValue);
+  CHECK_THROWS_AS(make({1.0, 2.0}, {0.0, 0.0}), errors::InvalidValue);
+  CHECK_THROWS_AS(make({1.0, 2.0}, {1.0, std::nan("")}), errors::InvalidValue);
+  CHECK_THROWS_AS(make({}, {}), errors::InvalidValue);
+  CHECK_THROWS_AS(make({1.0, std::nan("")}, {1.0, 2.0}), errors::InvalidValue);
+}

@@ -98,22 +98,26 @@ TEST_CASE("Each sampler runs on a problem at its evaluations, the same for any n
   }
 }
 
-TEST_CASE("A configuration with independent draws gives runs of 1000 points with the moments of all draws") {
+TEST_CASE("Runs of weighted draws have the moments of all of them, and p-boxes of 1000 drawn from them") {
   const auto problems = closed_form_problems();
   const auto& p = named(problems, "Gaussian, 2-D");
-  Configuration configuration{"independent", "5000", tmcmc::recommended_options(5000)};
-  configuration.options.finish = tmcmc::IndependentDraws{};
-  const auto runs = run_configuration(p.problem, configuration, 0, {.runs = 8, .threads = 2});
+  const StudyOptions options{.runs = 8, .threads = 2};
+  const auto runs = run_arm(p.problem, {"draws", tmcmc::recommended_options(5000)}, 0, options);
   REQUIRE(runs.size() == 8);
   double squares = 0.0;
   for (const auto& run : runs) {
-    CHECK(run.result.final.points.rows() == 1000);
     CHECK(run.result.final.evaluations == 5000);
     CHECK(run.standard_deviation[0] == Approx(1.0).margin(0.1));
     squares += run.mean[0] * run.mean[0] / 8.0;
   }
-  // More than 1000 draws are behind each mean: the points alone would give 0.032.
-  CHECK(std::sqrt(squares) < 0.031);
+  CHECK(std::sqrt(squares) < 0.031);  // 1000 draws would give 0.032
   const auto a = accuracy(runs, {Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(2), p.log_evidence});
   CHECK(a.evidence_rms < 0.02);
+  const auto areas = paper_sized_areas(runs, 0, options);
+  REQUIRE(areas.size() == 10);
+  const double of_all = pbox_areas(runs)[0];
+  for (const auto& area : areas) {
+    CHECK(area[0] > 1.2 * of_all);  // of 1000 draws in place of more than 2000
+    CHECK(area[0] < 0.2);
+  }
 }

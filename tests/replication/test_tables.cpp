@@ -25,7 +25,7 @@ std::string runs_file() {
   for (const char* sampler : {"A", "B"}) {
     int run = 0;
     for (const char* estimate : {"1", "2", "3", "6"}) {
-      text += "\n" + std::string(sampler) + ',' + std::to_string(run++);
+      text += std::string(1, '\n').append(sampler).append(",").append(std::to_string(run++));
       for (std::size_t q = 0; q < estimated_quantities().size(); ++q) {
         text += ',' + std::string(estimate);
       }
@@ -70,6 +70,20 @@ TEST_CASE_METHOD(CsvFixture, "samples are grouped by sampler and run, in the col
   CHECK(samples.values[1][0] == std::vector<std::vector<double>>{{4.0}});
   CHECK(message([&] { std::ignore = read_samples(all, {"z"}, "samples of a study"); }) ==
         "x.csv: no column 'z': expected samples of a study");
+}
+
+TEST_CASE_METHOD(CsvFixture, "a column weight weighs the samples of each run", "[tables]") {
+  const auto samples = read_samples(table("sampler,run,x,weight\nA,0,1,3\nA,0,2,1\nA,1,5,2\nA,1,7,0\n"));
+  CHECK(samples.columns == std::vector<std::string>{"x"});
+  CHECK(samples.weights[0] == std::vector<std::vector<double>>{{3.0, 1.0}, {2.0, 0.0}});
+  CHECK(samples.moments_of(0, 0, 0).mean == 1.25);
+  CHECK(samples.moments_of(0, 0, 1).mean == 5.0);
+  CHECK(samples.ecdfs(0, 0)[0](1.0) == 0.75);
+  CHECK(samples.ecdfs(0, 0)[1](5.0) == 1.0);
+  CHECK(message([&] { std::ignore = read_samples(table("sampler,run,x,weight\nA,0,1,-3\n")); }) ==
+        "x.csv:2: column 'weight': value '-3': expected a number from 0 to 1e100");
+  CHECK(message([&] { std::ignore = read_samples(table("sampler,run,x,weight\nA,0,1,0\n")); }) ==
+        "x.csv: column 'weight': expected a positive weight in each run");
 }
 
 TEST_CASE_METHOD(CsvFixture, "estimates are one a run, without negative deviations", "[tables]") {

@@ -55,3 +55,15 @@ TEST_CASE("a histogram counts each value in the bin whose lower end it has reach
   CHECK_THROWS_AS(histogram(values, 1.0, 1.0, 4), errors::InvalidValue);
   CHECK_THROWS_AS(histogram(values, 0.0, 1.0, 0), errors::InvalidValue);
 }
+
+TEST_CASE("weighted moments and histograms count weights as repeated values", "[statistics]") {
+  const std::vector<double> x{1.0, 2.0, 4.0}, w{3.0, 1.0, 2.0}, ones(3, 0.4), zeros(3, 0.0);
+  const auto m = statistics::moments(x, w);
+  CHECK(m.mean == Approx(13.0 / 6.0));
+  // sum w (x - mean)^2 = 3 (7/6)^2 + (1/6)^2 + 2 (11/6)^2; W - sum w^2 / W = 6 - 14/6
+  CHECK(m.standard_deviation == Approx(std::sqrt((147.0 + 1.0 + 242.0) / 36.0 / (6.0 - 14.0 / 6.0))));
+  CHECK(statistics::moments(x, ones).standard_deviation == statistics::moments(x).standard_deviation);
+  CHECK_THROWS_AS(statistics::moments(x, zeros), errors::InvalidValue);
+  CHECK_THROWS_AS(statistics::moments(x, std::vector<double>{1.0}), errors::InvalidValue);
+  CHECK(statistics::histogram(x, w, 0.0, 4.0, 2) == std::vector<double>{3.0, 1.0});
+}

@@ -46,7 +46,7 @@ inline std::vector<std::pair<std::string, tmcmc::Options>> every_kind() {
   });
   add("not diagnosed", [](auto& o) { o.diagnose = false; });
   add("budget that ends early", [](auto& o) { o.evaluation_budget = 1000; });
-  kinds.emplace_back("recommended", tmcmc::recommended_options(2600));
+  kinds.emplace_back("recommended", tmcmc::recommended_moves(2600));
   return kinds;
 }
 

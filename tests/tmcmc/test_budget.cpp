@@ -78,11 +78,11 @@ TEST_CASE("a last stage without a step to spend does not take place", "[tmcmc][b
   CHECK(one.stages.front().move_steps == 1);
 }
 
-TEST_CASE("the recommended options keep their budget", "[tmcmc][budget]") {
-  CHECK_NOTHROW(tmcmc::recommended_options().validate());
+TEST_CASE("the better moves keep their budget", "[tmcmc][budget]") {
+  CHECK_NOTHROW(tmcmc::recommended_moves().validate());
   for (const Index budget : {500, 5000, 31000}) {
     CAPTURE(budget);
-    const Options options = tmcmc::recommended_options(budget);
+    const Options options = tmcmc::recommended_moves(budget);
     CHECK_NOTHROW(options.validate());
     CHECK(options.evaluation_budget == budget);
     const Result result = tmcmc::run(gamma_normal(), options, {.seed = 55});
@@ -90,7 +90,7 @@ TEST_CASE("the recommended options keep their budget", "[tmcmc][budget]") {
     CHECK(result.final.evaluations <= budget);
     CHECK(budget - result.final.evaluations < 10);
   }
-  CHECK_THROWS_AS(tmcmc::recommended_options(499), std::invalid_argument);
+  CHECK_THROWS_AS(tmcmc::recommended_moves(499), std::invalid_argument);
 }
 
 namespace {
@@ -112,7 +112,7 @@ TEST_CASE("a posterior of many stages is reached with any budget, large or small
   for (const Index chains : {10, 100}) {
     for (const Index budget : {2600, 5200, 31000, 200000}) {
       CAPTURE(chains, budget);
-      const Options options = tmcmc::recommended_options(budget, chains);
+      const Options options = tmcmc::recommended_moves(budget, chains);
       const Result result = tmcmc::run(needle(), options, {.seed = 61});
       CHECK(result.stop == StopReason::completed);
       CHECK(result.stages.size() > 13);
@@ -124,7 +124,7 @@ TEST_CASE("a posterior of many stages is reached with any budget, large or small
 
 TEST_CASE("populations under a budget are no larger than samples, and shrink where many stages are ahead",
           "[tmcmc][budget]") {
-  const Options options = tmcmc::recommended_options(31000);
+  const Options options = tmcmc::recommended_moves(31000);
   std::vector<Index> sizes;
   const Result result = tmcmc::run(needle(), options, {.seed = 62}, [&](const tmcmc::Progress& progress) {
     sizes.push_back(progress.state.points.rows());
@@ -139,7 +139,7 @@ TEST_CASE("populations under a budget are no larger than samples, and shrink whe
 }
 
 TEST_CASE("a run under a budget goes on from any stage as if it had not been stopped", "[tmcmc][budget]") {
-  const Options options = tmcmc::recommended_options(5200);
+  const Options options = tmcmc::recommended_moves(5200);
   std::vector<tmcmc::Progress> kept;
   const Result whole =
       tmcmc::run(needle(), options, {.seed = 63}, [&](const tmcmc::Progress& p) { kept.push_back(p); });

@@ -269,7 +269,7 @@ TEST_CASE("few healthy runs, and nearly all that outran their chains, are said n
     Index count = 0;
     for (std::uint32_t run = 0; run < runs; ++run) {
       const Result result =
-          tmcmc::run(problem, tmcmc::recommended_options(evaluations, chains), {.seed = 71, .run = run});
+          tmcmc::run(problem, tmcmc::recommended_moves(evaluations, chains), {.seed = 71, .run = run});
       count += warns(result, WarningKind::not_in_equilibrium) ? 1 : 0;
     }
     return count;

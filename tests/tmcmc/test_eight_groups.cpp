@@ -41,7 +41,7 @@ TEST_CASE("eight groups with a known spread come out as in closed form", "[tmcmc
   double evidence_z = 0.0;
   constexpr std::uint32_t runs = 12;
   for (std::uint32_t run = 0; run < runs; ++run) {
-    const auto result = tmcmc::run(problem, tmcmc::recommended_options(30000, 100), {.seed = 2, .run = run});
+    const auto result = tmcmc::run(problem, tmcmc::recommended_moves(30000, 100), {.seed = 2, .run = run});
     REQUIRE(result.stop == tmcmc::StopReason::completed);
     for (std::size_t j = 0; j < 9; ++j) {
       const auto x = result.final.points.col(static_cast<Eigen::Index>(j)).array();
@@ -83,7 +83,7 @@ TEST_CASE("eight groups with an unknown spread agree with quadrature over the sp
   double evidence_z = 0.0;
   constexpr std::uint32_t runs = 12;
   for (std::uint32_t run = 0; run < runs; ++run) {
-    const auto result = tmcmc::run(problem, tmcmc::recommended_options(30000, 100), {.seed = 3, .run = run});
+    const auto result = tmcmc::run(problem, tmcmc::recommended_moves(30000, 100), {.seed = 3, .run = run});
     REQUIRE(result.stop == tmcmc::StopReason::completed);
     taus.push_back(result.final.points.col(1).array().exp().mean());
     mus.push_back(result.final.points.col(0).mean());

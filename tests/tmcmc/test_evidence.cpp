@@ -278,7 +278,7 @@ TEST_CASE(
       all.push_back(options);
     }
   }
-  all.push_back(tmcmc::recommended_options(5000));
+  all.push_back(tmcmc::recommended_moves(5000));
   for (const Options& options : all) {
     CAPTURE(options.move.index(), options.proposal.index(), options.samples);
     const Result reference = tmcmc::run(shifted(0.0), options, {.seed = 34});

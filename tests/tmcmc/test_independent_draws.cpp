@@ -38,7 +38,7 @@ Problem slab_and_spike(double spike_width) {
 }
 
 Options by_draws(Index evaluations = 31000) {
-  Options options = recommended_options(evaluations);
+  Options options = recommended_moves(evaluations);
   options.finish = IndependentDraws{};
   return options;
 }
@@ -198,6 +198,15 @@ TEST_CASE("A model that excludes nearly all of the prior is measured, one that e
   CHECK(measured.evidence.log_evidence == Approx(exact).margin(5.0 * measured.evidence.standard_error));
   CHECK(measured.evidence.standard_error < 0.1);
   CHECK_THROWS_AS(run(inside(0.0), by_draws(3000), {.seed = 10}), InfeasiblePriorError);
+}
+
+TEST_CASE("The recommended options are better moves with independent draws from 3000 evaluations on") {
+  CHECK(std::holds_alternative<NoFinish>(recommended_options(2999).finish));
+  Options options = recommended_options(3000, 5);
+  CHECK(std::holds_alternative<IndependentDraws>(options.finish));
+  CHECK(options.samples == recommended_moves(3000, 5).samples);
+  CHECK(run(normal(), options, {.seed = 17}).final.evaluations == 3000);
+  CHECK_THROWS_AS(recommended_options(499), errors::InvalidValue);
 }
 
 TEST_CASE("Options that do not go with independent draws are refused by name") {

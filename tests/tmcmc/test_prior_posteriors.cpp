@@ -72,7 +72,7 @@ void check(const Problem& problem, const Exact& exact, const tmcmc::Options& opt
 }
 
 void check(const Problem& problem, const Exact& exact) {
-  check(problem, exact, tmcmc::recommended_options(8000));
+  check(problem, exact, tmcmc::recommended_moves(8000));
 }
 
 std::string parameter_name(std::size_t j) {
@@ -108,9 +108,9 @@ void check_normal_normal(std::size_t d, const tmcmc::Options& options) {
 }  // namespace
 
 TEST_CASE("Normal prior and Normal likelihood in 1, 2 and 10 dimensions", "[tmcmc][prior]") {
-  check_normal_normal(1, tmcmc::recommended_options(8000));
-  check_normal_normal(2, tmcmc::recommended_options(8000));
-  check_normal_normal(10, tmcmc::recommended_options(40000, 100));
+  check_normal_normal(1, tmcmc::recommended_moves(8000));
+  check_normal_normal(2, tmcmc::recommended_moves(8000));
+  check_normal_normal(10, tmcmc::recommended_moves(40000, 100));
   // The moves of the paper, in natural coordinates.
   tmcmc::Options options;
   options.move = tmcmc::ResampleMove{.steps = 10};
@@ -206,7 +206,7 @@ TEST_CASE("log-normal stiffnesses of a shear frame against quadrature", "[tmcmc]
                         Prior({{"stiffness_1", "N/m", lower}, {"stiffness_2", "N/m", upper}})};
   check(problem, exact);
   // The same by independent draws.
-  auto options = tmcmc::recommended_options(10000);
+  auto options = tmcmc::recommended_moves(10000);
   options.finish = tmcmc::IndependentDraws{};
   const auto measured = tmcmc::run(problem, options, {.seed = 3});
   CHECK(std::fabs(measured.evidence.log_evidence - exact.log_evidence) <
@@ -231,7 +231,7 @@ TEST_CASE("with a flat likelihood the samples are the prior and the log-evidence
   natural.move = tmcmc::ResampleMove{.steps = 20};
   natural.scale_rule = tmcmc::FixedScale{2.0};
   for (const Marginal& marginal : all) {
-    for (const auto& options : {tmcmc::recommended_options(3000), natural}) {
+    for (const auto& options : {tmcmc::recommended_moves(3000), natural}) {
       CAPTURE(marginal.text(), options.move.index());
       const Problem flat{by_rows([](const auto&) { return 0.0; }), Prior({{"x", "", marginal}})};
       std::vector<std::vector<double>> shares(4);
@@ -266,7 +266,7 @@ TEST_CASE("ranks of parameters from a log-normal, beta and correlated prior are 
   constexpr int data_sets = 500;
   constexpr int draws = 19;
   std::vector<std::vector<int>> histograms(3, std::vector<int>(draws + 1, 0));
-  const auto options = tmcmc::recommended_options(3000);
+  const auto options = tmcmc::recommended_moves(3000);
   for (std::uint32_t data_set = 0; data_set < data_sets; ++data_set) {
     const tmcmc::StreamKey truth_key{.seed = 14, .study = 1, .run = data_set};
     Eigen::VectorXd truth(3);

@@ -98,8 +98,8 @@ TEST_CASE("so do cross-fitted proposals, whatever the kind of move", "[tmcmc][sa
   }
 }
 
-TEST_CASE("so do the recommended options, each time within their budget", "[tmcmc][sampler]") {
-  const Options options = tmcmc::recommended_options(13000);
+TEST_CASE("so do the better moves, each time within their budget", "[tmcmc][sampler]") {
+  const Options options = tmcmc::recommended_moves(13000);
   const auto results = replicate(gamma_normal(), options, 64);
   check_gamma_normal(results, options.samples);
   for (const Result& result : results) {
@@ -141,7 +141,7 @@ TEST_CASE("unbounded coordinates are right where the posterior lies at a bound",
 
 TEST_CASE("neither threads nor batches change a bit under the new options either", "[tmcmc][sampler]") {
   for (const ScaleRule& rule : {ScaleRule(DimensionScale{}), ScaleRule(TargetAcceptance{})}) {
-    Options options = tmcmc::recommended_options(4000);
+    Options options = tmcmc::recommended_moves(4000);
     options.move = WasteFree{100};
     options.samples = 300;
     options.scale_rule = rule;

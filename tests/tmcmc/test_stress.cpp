@@ -46,7 +46,7 @@ std::vector<std::pair<std::string, Options>> every_kind() {
           {"redraw", redraw},
           {"growing chains", growing},
           {"adaptive, unbounded", adaptive},
-          {"recommended", tmcmc::recommended_options(2600)}};
+          {"recommended", tmcmc::recommended_moves(2600)}};
 }
 
 BoxPrior unit_box(Index dimension = 2) {
@@ -251,7 +251,7 @@ TEST_CASE("fifty dimensions: means and variances, and a warning where the eviden
   const Problem problem = {
       by_rows([](const auto& x) { return -0.5 * (x.array() - 0.5).square().sum() / (sd * sd); }),
       unit_box(dimension)};
-  Options options = tmcmc::recommended_options(200000);
+  Options options = tmcmc::recommended_moves(200000);
   options.samples = 8000;
   options.move = tmcmc::WasteFree{100};
   const Result result = tmcmc::run(problem, options, {.seed = 4});

@@ -22,7 +22,7 @@
 namespace {
 
 tmcmc::Options options_of(const std::string& moves) {
-  tmcmc::Options options = moves == "waste-free" ? tmcmc::recommended_options(2600) : problems::few_samples();
+  tmcmc::Options options = moves == "waste-free" ? tmcmc::recommended_moves(2600) : problems::few_samples();
   options.batch_rows = 0;
   options.threads = moves == "threads" ? 3 : 1;
   return options;
