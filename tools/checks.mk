@@ -138,7 +138,13 @@ docs: doc-deps
 
 #: make install     the libraries, their headers and the CMake package into PREFIX=/usr/local
 PREFIX ?= /usr/local
-install:
-	cmake --preset release -B build/install -DTMCMC_BUILD_EXPERIMENTS=OFF -DTMCMC_BUILD_TESTS=OFF $(CMAKE_FLAGS)
+build-install:
+	cmake --preset release -B build/install -DTMCMC_BUILD_EXPERIMENTS=OFF -DTMCMC_BUILD_TESTS=OFF -DTMCMC_BUILD_COMPONENTS=ON $(CMAKE_FLAGS)
 	cmake --build build/install
+install: build-install
 	cmake --install build/install --prefix $(PREFIX)
+
+#: make deb         the same as a package of Debian, build/install/libtmcmc-companion-dev_*.deb
+deb: build-install
+	cd build/install && cpack
+.PHONY: build-install deb

@@ -11,7 +11,7 @@ quietly "$cmake" --install "$build" --prefix "$work/first"
 mv "$work/first" "$work/prefix"  # a package that names its prefix would break
 prefix=$work/prefix
 foreign=$(find "$prefix" -type f | sed "s|^$prefix/||" |
-  grep -vE '^(include/(tmcmc|pbox|friction|portable_math|errors|names)/(detail/)?[a-z_]+\.hpp|lib(/[^/]*)?/lib(tmcmc|pbox|friction)\.a|lib(/[^/]*)?/cmake/tmcmc_companion/[a-z_-]+\.cmake|share/doc/tmcmc_companion/LICENSE)$' || true)
+  grep -vE '^(include/(tmcmc|pbox|friction|portable_math|errors|names|io|models|storage)/(detail/)?[a-z_]+\.hpp|lib(/[^/]*)?/lib(tmcmc|pbox|friction|io|models|storage)\.a|lib(/[^/]*)?/cmake/tmcmc_companion/[a-z_-]+\.cmake|share/doc/tmcmc_companion/LICENSE)$' || true)
 [ -z "$foreign" ] || fail "installed, but neither library, header, package file nor licence: $foreign"
 cmp -s "$source/LICENSE" "$prefix/share/doc/tmcmc_companion/LICENSE" || fail 'no LICENSE'
 if grep -rlFe "$source" -e "$build" -e "$work" --include='*.cmake' "$prefix"; then fail 'package files name this machine'; fi
@@ -22,6 +22,7 @@ cp -r "$source/tests/install" "$work/consumer"
 quietly "${configure[@]}" -DINCLUDE_DIR="$prefix/include" -S "$work/consumer" -B "$work/consumer/build"
 quietly "$cmake" --build "$work/consumer/build" --parallel 2
 "$work/consumer/build/friction_posterior"
+(cd "$work/consumer/build" && ./components) || fail "the program with components ends with status $?"
 
 page=$source/src/tmcmc/README.md
 block() { awk -v fence='```' -v language="$1" '$0 == fence && inside { exit } inside { print } $0 == fence language { inside = 1 }' "$page"; }

@@ -1,0 +1,12 @@
+# `make deb`: the installed libraries as a package of Debian, by CPack.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME libtmcmc-companion-dev)
+set(CPACK_PACKAGE_CONTACT "The contributors of tmcmc-companion <tmcmc-companion@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "TMCMC sampler, p-boxes, Coulomb-friction oscillator (development files)")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), g++, cmake")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libfmt-dev, nlohmann-json3-dev, libcpp-httplib-dev, libnetcdf-dev, pkgconf")
+include(CPack)
