@@ -10,6 +10,7 @@
 
 #include "kept_run.hpp"
 #include "models/ranks.hpp"
+#include "own_figures.hpp"
 #include "own_models.hpp"
 #include "problem_options.hpp"
 #include "run_progress.hpp"
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
     if (!problem.netcdf.empty()) {
       netcdf.emplace(problem.netcdf);
     }
+    const OwnFigures figures(problem.figures);
     const std::string checkpoint = checkpoint_base(problem, csv && !csv->in_place());
 
     // 3. The runs.
@@ -120,6 +122,7 @@ int main(int argc, char** argv) {
       storage::write_inference_data(*netcdf, inference_data(results, model, problem.seed));
     }
     io::commit_all(csv, summary_csv, netcdf);
+    figures.make(results, model.prior, report);
     for (long r = 1; r <= problem.runs; ++r) {
       storage::remove_checkpoint(checkpoint_of(checkpoint, r, problem.runs));
     }

@@ -127,6 +127,8 @@ void ProblemOptions::add_run_and_outputs(CLI::App& app) {
       "Samples, stages and observations in the layout of ArviZ");
   add(app, "output", "summary", "--summary", summary, "FILE", text,
       "CSV: a row a parameter with mean, sd, quantiles, effective sample size and R-hat");
+  add(app, "output", "figures", "--figures", figures, "DIRECTORY", text,
+      "Directory for a corner plot, marginals, and the stages, drawn by gnuplot, with their tables");
   add(app, "output", "checkpoint", "--checkpoint", checkpoint, "FILE", text,
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
       ".checkpoint, if --output is a file");

@@ -49,6 +49,7 @@ class ProblemOptions {
 
   std::string output;      ///< CSV of the samples
   std::string netcdf;      ///< samples, stages, observations
+  std::string figures;     ///< directory of figures and their tables
   std::string summary;     ///< CSV of the table that is printed
   std::string checkpoint;  ///< kept stages
 

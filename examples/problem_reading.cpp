@@ -136,10 +136,10 @@ void ProblemOptions::take(const std::string& table, const std::string& name, con
     throw io::InputError(fmt::format("{}:{}: {}: {}", io::printable_path(path_), node.line, place, wrong));
   }
   const std::string type = key->option->get_type_name();
-  if (type == "CSV" || type == "PROGRAM" || type == "FILE") {
+  if (type == "CSV" || type == "PROGRAM" || type == "FILE" || type == "DIRECTORY") {
     const std::string path = resolved(path_, *text);
     std::error_code ignored;
-    if (type != "FILE" && !fs::exists(path, ignored)) {
+    if (type != "FILE" && type != "DIRECTORY" && !fs::exists(path, ignored)) {
       file_->fail(node, place, "a file that exists; a path begins where the problem file is");
     }
     text = path;

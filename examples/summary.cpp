@@ -10,6 +10,7 @@
 #include "build_info.hpp"
 #include "statistics/summary.hpp"
 #include "tmcmc/diagnostics.hpp"
+#include "tmcmc/modes.hpp"
 
 namespace examples {
 
@@ -60,6 +61,28 @@ double quantile(const std::vector<std::pair<double, double>>& values, double p) 
     last = x;
   }
   return last;
+}
+
+/// Separate modes of a run, if there are several.
+void print_modes(const experiments::Report& report, const std::vector<ParameterSummary>& names,
+                 const tmcmc::Result& run, const std::string& of_run) {
+  const auto found = tmcmc::find_modes(run);
+  if (found.modes.size() < 2) {
+    return;
+  }
+  report("{} separate modes{}:\n", found.modes.size(), of_run);
+  for (std::size_t k = 0; k < found.modes.size(); ++k) {
+    const auto& mode = found.modes[k];
+    report("  mode {}: weight {:.3g} +- {:.2g};", k + 1, mode.weight, mode.standard_error);
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      const auto at = static_cast<Index>(j);
+      report(" {} = {:.4g} ({:.2g})", names[j].name, mode.mean[at], mode.standard_deviation[at]);
+    }
+    report("\n");
+  }
+  for (const auto& warning : found.warnings) {
+    report("warning: {}{}\n", warning, of_run);
+  }
 }
 
 double r_hat(const std::vector<tmcmc::Result>& runs, Index j) {
@@ -138,6 +161,9 @@ void print_summary(const experiments::Report& report, const std::vector<Paramete
            runs[r].final.evaluations);
   }
   report("\n");
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    print_modes(report, summary, runs[r], runs.size() > 1 ? fmt::format(" of run {}", r + 1) : "");
+  }
   for (std::size_t r = 0; r < runs.size(); ++r) {
     for (const auto& warning : runs[r].diagnostics.warnings) {
       report("warning: {}{}\n", warning.message, runs.size() > 1 ? fmt::format(" of run {}", r + 1) : "");

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
       samples.weights = nonnegative_numbers(table, "weight");
     }
     CornerTables tables(output, marginals_output, summary_output);
-    tables.write(samples, bins, report);
+    tables.write(samples, bins, &report);
     io::commit_all(tables.joint, tables.marginals, tables.summary);
   });
 }

@@ -36,10 +36,12 @@ CornerTables::CornerTables(const std::string& joint_path, const std::string& mar
       summary(open_csv(summary_path,
                        {"parameter", "mean", "sd", "q025", "q25", "q50", "q75", "q975", "low", "high"})) {}
 
-void CornerTables::write(const CornerSamples& samples, long bins, const Report& report) {
+void CornerTables::write(const CornerSamples& samples, long bins, const Report* report) {
   const auto& [names, columns, weights] = samples;
   std::vector<statistics::Range> ranges;
-  report("{:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "", "mean", "sd", "2.5 %", "median", "97.5 %");
+  if (report != nullptr) {
+    (*report)("{:<24} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "", "mean", "sd", "2.5 %", "median", "97.5 %");
+  }
   for (std::size_t p = 0; p < names.size(); ++p) {
     ranges.push_back(statistics::panel_range(columns[p], weights));
     const auto [mean, sd] = moments_of(columns[p], weights);
@@ -47,8 +49,10 @@ void CornerTables::write(const CornerSamples& samples, long bins, const Report& 
     for (const double level : {0.025, 0.25, 0.5, 0.75, 0.975}) {
       quantiles.push_back(statistics::weighted_quantile(columns[p], weights, level));
     }
-    report("{:<24} {:>12.5g} {:>12.3g} {:>12.5g} {:>12.5g} {:>12.5g}\n", names[p], mean, sd, quantiles[0],
-           quantiles[2], quantiles[4]);
+    if (report != nullptr) {
+      (*report)("{:<24} {:>12.5g} {:>12.3g} {:>12.5g} {:>12.5g} {:>12.5g}\n", names[p], mean, sd,
+                quantiles[0], quantiles[2], quantiles[4]);
+    }
     summary.row(names[p], mean, sd, quantiles, ranges[p].low, ranges[p].high);
   }
   const auto edge = [&](std::size_t p, double bin) {

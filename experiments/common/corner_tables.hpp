@@ -27,8 +27,9 @@ struct CornerTables {
   CornerTables(const std::string& joint_path, const std::string& marginals_path,
                const std::string& summary_path);
 
-  /// Writes the rows of all tables, and the summary to the report. \param bins  of each parameter
-  void write(const CornerSamples& samples, long bins, const Report& report);
+  /// Writes the rows of all tables. \param bins  of each parameter
+  /// \param report  where the summary is printed too; may be null
+  void write(const CornerSamples& samples, long bins, const Report* report = nullptr);
 };
 
 }  // namespace experiments

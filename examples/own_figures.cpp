@@ -1,0 +1,80 @@
+#include "own_figures.hpp"
+
+#include <filesystem>
+
+#include "build_info.hpp"
+#include "corner_tables.hpp"
+#include "models/child.hpp"
+
+namespace examples {
+
+namespace {
+
+/// Samples of all runs, each of which counts the same.
+experiments::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior) {
+  experiments::CornerSamples samples;
+  samples.names = prior.names();
+  samples.columns.resize(samples.names.size());
+  for (const auto& run : runs) {
+    const double total = run.weights.sum();
+    for (Eigen::Index i = 0; i < run.final.points.rows(); ++i) {
+      for (std::size_t j = 0; j < samples.names.size(); ++j) {
+        samples.columns[j].push_back(run.final.points(i, static_cast<Eigen::Index>(j)));
+      }
+      samples.weights.push_back(run.weights[i] / total);
+    }
+  }
+  return samples;
+}
+
+void write_stages(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (const auto& stage : runs[r].stages) {
+      csv.row(r + 1, stage.stage, stage.beta, stage.effective_sample_size, stage.acceptance_rate,
+              stage.log_evidence_increment);
+    }
+  }
+}
+
+}  // namespace
+
+OwnFigures::OwnFigures(std::string directory) : directory_(std::move(directory)) {
+  if (!directory_.empty()) {
+    directory_ = std::filesystem::absolute(directory_);
+    std::error_code error;
+    std::filesystem::create_directories(directory_, error);
+    if (error) {
+      throw io::OutputError(fmt::format("--figures: value '{}': {}: expected a directory that can be written",
+                                        io::printable_path(directory_), error.message()));
+    }
+  }
+}
+
+void OwnFigures::make(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior,
+                      const experiments::Report& report) const {
+  if (directory_.empty()) {
+    return;
+  }
+  constexpr long bins = 30;
+  const auto path = [&](const char* name) { return directory_ + "/" + name; };
+  experiments::CornerTables tables(path("corner.csv"), path("corner_marginals.csv"),
+                                   path("corner_summary.csv"));
+  auto stages = experiments::open_csv(path("stages.csv"), {"run", "stage", "beta", "effective_sample_size",
+                                                           "acceptance_rate", "log_evidence_increment"});
+  tables.write(pooled(runs, prior), bins);
+  write_stages(stages, runs);
+  io::commit_all(tables.joint, tables.marginals, tables.summary, stages);
+  const std::string& source = experiments::source_directory();
+  for (const char* figure : {"samples_corner", "samples_marginals", "samples_stages"}) {
+    const auto end =
+        models::run_child({source + "/figures/draw", figure, directory_, directory_}, source, 60.0);
+    if (end.kind != models::ChildEnd::Kind::exited || end.value != 0) {
+      experiments::warn(
+          fmt::format("{}: not drawn: expected gnuplot (make deps); the tables are there", path(figure)));
+      return;
+    }
+  }
+  report("figures and their tables: {}\n", directory_);
+}
+
+}  // namespace examples
