@@ -31,12 +31,16 @@ do for [panel = 1:4] {
   if (panel == 3) { set yrange [0:1]; set ylabel 'Acceptance rate' }
   if (panel == 4) { if (has_increments) { set yrange [*:*] } else { set yrange [-1:1] }; set ylabel 'Log-evidence up to {/:Italic β}' }
   total = 0
-  if (panel < 4) {
+  unset label 2
+  if (panel > 2 && !has_increments) {  # of independent draws
+    set label 2 'not recorded by independent draws' at graph 0.5, 0.5 center
+    plot NaN
+  } else { if (panel < 4) {
     what = word('beta effective_sample_size acceptance_rate', panel)
     plot for [i = 1:runs] stages using 'stage':(own(i, column(what))) with linespoints ls TMCMC lw 0.7
   } else {
     plot for [i = 1:runs] stages using 'stage':(column('run') == i ? (total = (column('stage') == 1 ? 0 : total) + \
         column('log_evidence_increment'), total) : NaN) with linespoints ls TMCMC lw 0.7
-  }
+  } }
 }
 unset multiplot

@@ -17,6 +17,14 @@ check "the report" grep -q 'two.nc .* +- ' report.txt
 check "prior probabilities count" awk -v a="$(cell table.csv common.nc probability)" -v b="$(cell weighted.csv common.nc probability)" \
   'BEGIN {r = b / (1 - b) / (a / (1 - a)) / 1e6; exit !((r-1)^2 < 1e-6)}'
 
+for noise in unknown known; do
+  options=""
+  [ $noise = known ] && options="--prior $source/data/examples/friction_known_noise.csv"
+  "$bin/own_model" "$source/examples/friction_rig.toml" --quiet --finish independent --evaluations 8000 $options --output $noise.csv --netcdf $noise.nc
+done
+"$bin/compare_evidence" unknown.nc known.nc --quiet --output noise.csv
+check "the stated noise is the likelier one" awk -v b="$(cell noise.csv unknown.nc log_bayes_factor)" 'BEGIN {exit !(b < -4.5 && b > -5.7)}'
+
 sed '2s/[0-9]$/9/' data/examples/frame_observations.csv >other.csv
 $own --observations other.csv --output o.csv --netcdf other.nc
 expect_error 2 "other.nc: attribute 'data_checksum': value" "$bin/compare_evidence" two.nc other.nc

@@ -57,23 +57,20 @@ Neighbours neighbours_of(const Population& white, Index count) {
   const auto n = at(white.rows());
   Neighbours result{std::vector<std::vector<Index>>(n), std::vector<double>(n)};
   std::vector<double> squared(n);
-  std::vector<Index> order(n);
+  std::vector<double> sorted(n);
   for (std::size_t i = 0; i < n; ++i) {
     distances_from(white, static_cast<Index>(i), squared);
     squared[i] = -1.0;  // itself comes first
-    std::iota(order.begin(), order.end(), Index{0});
-    const auto nearer = [&](Index a, Index b) {
-      return squared[at(a)] < squared[at(b)] || (squared[at(a)] == squared[at(b)] && a < b);
-    };
-    std::nth_element(order.begin(), order.begin() + count, order.end(), nearer);
-    result.reach[i] = std::sqrt(squared[at(order[at(count)])]);
-    auto& mine = result.of[i];
-    for (Index k = 0; k <= count; ++k) {
-      if (order[at(k)] != static_cast<Index>(i)) {
-        mine.push_back(order[at(k)]);
+    sorted = squared;
+    std::nth_element(sorted.begin(), sorted.begin() + count, sorted.end());
+    const double last = sorted[at(count)];
+    result.reach[i] = std::sqrt(last);
+    auto room = count - std::count_if(squared.begin(), squared.end(), [&](double x) { return x < last; }) + 1;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k != i && (squared[k] < last || (squared[k] == last && room-- > 0))) {  // of equals the first
+        result.of[i].push_back(static_cast<Index>(k));
       }
     }
-    std::sort(mine.begin(), mine.end());
   }
   return result;
 }
