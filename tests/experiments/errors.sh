@@ -120,6 +120,7 @@ while IFS=$'\t' read -r error status command message; do
       line=${command#"$first"}
       line=${line/--CSV/$o}; line=${line/--FILE/$o}
       case $line in *bad.csv*) make_bad "$e" "$o" ;; esac
+      case "$e$line" in corner*other.csv) continue ;; esac  # any columns are parameters
       complain "$status" "$text" "$bin/$e $(without "$arguments" "$line")$line"
       applied[$error]=1
     done
