@@ -17,6 +17,7 @@
 #include "replication/replication.hpp"
 #include "tmcmc/log_weights.hpp"
 #include "tmcmc/options.hpp"
+#include "tmcmc/weighted_samples.hpp"
 
 using emscripten::val;
 
@@ -143,7 +144,7 @@ class Study {
     runs.push_back(replication::run_one(problem_, arms_[arm], static_cast<std::uint32_t>(arm), options_,
                                         static_cast<tmcmc::Index>(runs.size())));
     const auto& run = runs.back();
-    const auto& points = run.result.final.points;
+    const tmcmc::Population points = equally_weighted(run, arm, runs.size() - 1);
     for (tmcmc::Index j = 0; j < points.cols(); ++j) {
       ecdfs_[arm][static_cast<std::size_t>(j)].emplace_back(
           std::vector<double>(points.col(j).begin(), points.col(j).end()));
@@ -236,7 +237,7 @@ class Study {
       stage.set("beta", state.beta);
       stage.set("points", numbers(state.points));
       stage.set("logLikelihood", numbers(state.log_likelihood));
-      if (t > 0) {
+      if (t > 0 && t <= run.result.stages.size()) {
         stage.set("record", record_of(run.result.stages[t - 1]));
       }
       if (t < run.result.stages.size()) {
@@ -251,6 +252,18 @@ class Study {
   }
 
  private:
+  /// The samples of a run; weighted ones are drawn from.
+  [[nodiscard]] tmcmc::Population equally_weighted(const replication::Run& run, std::size_t arm,
+                                                   std::size_t index) const {
+    const auto& weights = run.result.weights;
+    if (weights.size() == 0 || (weights.array() == 1.0).all()) {
+      return run.result.final.points;
+    }
+    const tmcmc::StreamKey key{options_.seed, options_.study, static_cast<std::uint32_t>(arm),
+                               static_cast<std::uint32_t>(index)};
+    return tmcmc::equally_weighted(run.result, 1000, key, tmcmc::Resampling::multinomial);
+  }
+
   Settings settings_;
   tmcmc::Problem problem_;
   std::vector<replication::Arm> arms_;

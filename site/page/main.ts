@@ -62,6 +62,7 @@ function update(next: State, first = false): void {
     const all = new Set(Object.values(sections).flat());
     for (const id of all) element(id).hidden = !sections[next.part].includes(id);
     if (shown[before] !== shown[next.part]) shown[before].hide?.();
+    document.body.dataset.part = next.part;
     document.title = titles[next.part] + " – the paper, live";
   }
   document.querySelectorAll<HTMLAnchorElement>("#nav a").forEach((a) => {

@@ -20,7 +20,7 @@ export function rigPart(page: Page): Shown {
   const phase = new Chart(element("phase"), {
     title: "Phase lag of the mass behind the base", x: "frequency ratio r = ω_b/ω_n", y: "phase angle (deg)",
     lines: [{ label: "closed form (continuous motion)", colour: "tmcmc", width: 2.4 }, { label: "integrated in time (also sticking)", colour: "tmcmc2", dash: [7, 4] }, { label: "Table 1", colour: "printed", points: "circle" }],
-    xRange: [0.2, 2.02], yRange: [0, 180], height: 320,
+    xRange: [0.2, 2.02], yRange: [0, 180], height: 320, ySplits: [0, 30, 60, 90, 120, 150, 180],
     draw: (u: uPlot) => {
       const ratio = Number(page.state.ratio);
       const x = u.valToPos(ratio, "x", true);
@@ -96,9 +96,22 @@ export function rigPart(page: Page): Shown {
       : m.continuous ? `At r = ${ratio.toFixed(2)} the mass slides all the time, ${plain(m.phaseDeg)}° behind the base, with ${plain(m.amplitude)} times its amplitude.`
       : `At r = ${ratio.toFixed(2)} the mass sticks ${m.stops} times a period, for ${Math.round(100 * m.stickingFraction)} % of the time (shaded). Its first harmonic lags by ${plain(m.phaseDeg)}°.`;
     element("rig-says").textContent = says;
-    const tau = m.periodic ? Array.from(m.tau) : Array.from({ length: 200 }, (_, i) => i / 99.5);
-    const x = m.periodic ? Array.from(m.x) : tau.map(() => (m.atRest ? 0 : null));
-    const sticking = tau.map((_, i) => (m.atRest || m.sticks[i] || (i > 0 && m.sticks[i - 1]) ? x[i]! : null));
+    const tau: number[] = [], x: (number | null)[] = [], sticking: (number | null)[] = [];
+    const add = (t: number, at: number | null, sticks: boolean) => {
+      tau.push(t);
+      x.push(at);
+      sticking.push(sticks ? at : null);
+    };
+    if (m.periodic) {
+      for (let i = 0; i < m.tau.length; ++i) {
+        add(m.tau[i]!, m.x[i]!, !!m.sticks[i] || (i > 0 && !!m.sticks[i - 1]));
+        // The library gives a time of sticking by its ends; the base moves on.
+        const step = (m.tau[i + 1]! - m.tau[i]!) / 20;
+        for (let k = 1; m.sticks[i] && k < 20; ++k) add(m.tau[i]! + k * step, m.x[i]!, true);
+      }
+    } else {
+      for (let i = 0; i < 200; ++i) add(i / 99.5, m.atRest ? 0 : null, m.atRest);
+    }
     moved.set([tau, tau.map((t) => Math.cos(2 * Math.PI * t)), x, sticking], says);
   }
 
