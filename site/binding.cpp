@@ -206,9 +206,11 @@ class Study {
   /// The bytes that sampling_study writes: "runs", "stages" or "samples".
   [[nodiscard]] std::string csv(const std::string& table) const {
     const std::string path = "/tmp/" + table + ".csv";
+    const bool is_weighted =
+        std::holds_alternative<tmcmc::IndependentDraws>(settings_.reading.sampler.finish);
     io::CsvWriter writer(path, table == "runs"     ? replication::run_columns(settings_.sampler.diagnose)
                                : table == "stages" ? replication::stage_columns()
-                                                   : replication::sample_columns());
+                                                   : replication::sample_columns(is_weighted));
     for (std::size_t a = 0; a < arms_.size(); ++a) {
       for (std::size_t i = 0; i < runs_[a].size(); ++i) {
         if (table == "runs") {
@@ -216,7 +218,7 @@ class Study {
         } else if (table == "stages") {
           replication::write_stages(writer, arms_[a].name, i, runs_[a][i]);
         } else {
-          replication::write_samples(writer, arms_[a].name, i, runs_[a][i]);
+          replication::write_samples(writer, arms_[a].name, i, runs_[a][i], is_weighted);
         }
       }
     }
