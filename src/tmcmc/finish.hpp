@@ -23,10 +23,10 @@ struct NoFinish {
 /// 1. Two independent searches by tempered population Monte Carlo (search_posterior()):
 ///    Options::criterion chooses beta for the draws so far, a mixture of Student t distributions is
 ///    fitted to them and drawn from, and so on from the prior to beta = 1. With N_eff = f N the
-///    population N is 200 draws, or 40 d if that is more; CoV = c is f = 1 / (1 + c^2), the same
-///    rule.
+///    population N is a twentieth of what a search has beyond 600 evaluations, at most 200 draws or
+///    40 d, whichever is more; CoV = c is f = 1 / (1 + c^2), the same rule.
 /// 2. One density q is fitted to the draws of both. Defensive shares of the prior and of the
-///    tempered fits keep the weights bounded where the fit is too narrow. Trial draws, an eighth of
+///    tempered fits keep the weights bounded where the fit is too narrow. Trial draws, a sixth of
 ///    what is left, tell whether it overlaps with the posterior; if not, they serve another fit.
 /// 3. q is frozen, and the rest are independent draws from it. With weights w = L p / q the
 ///    log-evidence is log(mean w). No draw that a fit has seen is among them, so that the mean
@@ -36,21 +36,22 @@ struct NoFinish {
 /// A mode that both searches have missed leaves no trace. The draws of each alone are therefore
 /// compared with the final ones: a part m_1 of the posterior missed by one search and m_2 by the
 /// other suggests that both have missed about m_1 m_2, as in capture and recapture
-/// (WarningKind::searches_differ). Where neither search comes near the posterior, TMCMC with the
+/// (WarningKind::searches_differ). Few effective draws behind the choice of beta lose modes
+/// (WarningKind::few_draws_a_mode). Where neither search comes near the posterior, TMCMC with the
 /// other options gets the remaining evaluations (WarningKind::search_not_completed).
 struct IndependentDraws {
   /// On the command line and in checkpoints.
   static constexpr std::string_view name = "independent";
 
-  /// Share of the evaluations for the two searches together; they get 2400 at least, but never more
-  /// than half of what there is.
-  double search_share = 0.32;
+  /// Share of the evaluations for the two searches together; they get 1300 besides, but never more
+  /// than 0.64 of what there is.
+  double search_share = 0.28;
   /// Effective share of the trial draws below which the fit is improved.
   double least_effective_share = 0.25;
   /// Share of the draws that are from the prior.
   double prior_share = 0.02;
   /// Share of the draws that are from the searches' fits at beta below 0.3.
-  double tempered_share = 0.1;
+  double tempered_share = 0.05;
   /// Of the densities.
   MixtureFitOptions fit = {};
 };

@@ -199,7 +199,7 @@ class Fit {
   }
 
   void maximise(StudentMixture& mixture) const {
-    const double fewest = static_cast<double>(d_ + 2);
+    const double fewest = 2.0 + 0.25 * static_cast<double>(d_);
     StudentMixture next;
     next.degrees_of_freedom = mixture.degrees_of_freedom;
     std::vector<Index> kept;
@@ -252,28 +252,6 @@ class Fit {
   std::vector<double> white_, pulled_, distances_, shares_;
 };
 
-/// The points of even or odd groups.
-WeightedPoints half(const WeightedPoints& data, Index parity) {
-  std::vector<Index> rows;
-  for (Index i = 0; i < data.points.rows(); ++i) {
-    if (data.groups[static_cast<std::size_t>(i)] % 2 == parity) {
-      rows.push_back(i);
-    }
-  }
-  const auto n = static_cast<Index>(rows.size());
-  WeightedPoints part{Population(n, data.points.cols()), Eigen::VectorXd(n), {}};
-  for (Index i = 0; i < n; ++i) {
-    part.points.row(i) = data.points.row(rows[static_cast<std::size_t>(i)]);
-    part.weights[i] = data.weights[rows[static_cast<std::size_t>(i)]];
-  }
-  return part;
-}
-
-double total_log_density(const StudentMixture& mixture, const WeightedPoints& data) {
-  const Eigen::VectorXd densities = log_density(mixture, data.points);
-  return product_sum(densities.data(), data.weights.data(), data.weights.size());
-}
-
 }  // namespace
 
 StudentMixture fit_mixture(const WeightedPoints& data, Index components, const MixtureFitOptions& options,
@@ -284,38 +262,6 @@ StudentMixture fit_mixture(const WeightedPoints& data, Index components, const M
 StudentMixture improve_mixture(const WeightedPoints& data, StudentMixture start,
                                const MixtureFitOptions& options) {
   return Fit(data, options).improve(std::move(start));
-}
-
-StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
-                           std::uint32_t stage) {
-  const WeightedPoints even = half(data, 0);
-  const WeightedPoints odd = half(data, 1);
-  const double weight_even = sum(even.weights.data(), even.weights.size());
-  const double weight_odd = sum(odd.weights.data(), odd.weights.size());
-  Index best = 1;
-  if (weight_even > 0.0 && weight_odd > 0.0) {
-    Fit fit_even(even, options);
-    Fit fit_odd(odd, options);
-    double best_score = -std::numeric_limits<double>::infinity();
-    // Of few points the score is noisy, and there are chance gains in many coordinates.
-    const double least_gain = std::max(options.gain_of_component,
-                                       static_cast<double>(data.points.cols()) / (weight_even + weight_odd));
-    for (Index k = 1; k <= options.most_components; k *= 2) {
-      if (k > 1 && std::min(weight_even, weight_odd) < static_cast<double>(k * data.points.cols())) {
-        break;
-      }
-      const double score = (total_log_density(fit_even.run(k, key, stage), odd) +
-                            total_log_density(fit_odd.run(k, key, stage), even)) /
-                           (weight_even + weight_odd);
-      if (score > best_score + least_gain) {
-        best_score = score;
-        best = k;
-      } else if (score < best_score - 0.02) {
-        break;
-      }
-    }
-  }
-  return fit_mixture(data, best, options, key, stage);
 }
 
 }  // namespace tmcmc

@@ -30,20 +30,20 @@ struct MixtureFitOptions {
 ///
 ///     S_k <- (1 - l_k) S_k + l_k sum_j W_j S_j / sum_j W_j,   l_k = (d+1) / (d+1 + W_k),
 ///
-/// keeps components of few points from collapsing; one that takes less than d+2 points goes. Components can so become fewer.
+/// keeps components of few points from collapsing; one that takes less than 2 + d/4 points goes. Components can so become fewer.
 /// \param stage  of Purpose::reference
 /// \throws SamplingError if no weight is positive
 [[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, Index components,
                                          const MixtureFitOptions& options, const StreamKey& key,
                                          std::uint32_t stage);
 
-/// The same from components that are known about, such as those of a fit to some of the points.
+/// The same from components that are known about, such as those of a fit to some of the points. Their number does not grow.
 [[nodiscard]] StudentMixture improve_mixture(const WeightedPoints& data, StudentMixture start,
                                              const MixtureFitOptions& options);
 
 /// The same with the number of components that has the largest mean log-density on points that it was not fitted to:
 /// the groups of even number are fitted and the odd ones scored, and the other way round. More components have to gain d over the
-/// sum of the weights at least, since the score of few points is noisy.
+/// sum of the weights at least, since the score of few points is noisy, and each half needs 2 + d/2 points for each of them.
 [[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options,
                                          const StreamKey& key, std::uint32_t stage);
 

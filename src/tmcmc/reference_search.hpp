@@ -56,8 +56,10 @@ struct TemperedPoints {
 /// How a search spends its evaluations.
 struct SearchOptions {
   Index evaluations = 5000;    ///< at most
+  Index round = 200;           ///< draws of a round, at least
   double target = 100.0;       ///< effective size of the tempered weights that chooses beta
-  double enough = 1000.0;      ///< effective size at beta = 1 that ends the search
+  double most_target = 100.0;  ///< to which it grows where a search ends early
+  double enough = 1500.0;      ///< effective size at beta = 1 that ends a search
   double prior_share = 0.02;   ///< of the draws of a round
   MixtureFitOptions fit = {};  ///< of the densities
   int threads = 1;             ///< over the rows of a batch
@@ -69,7 +71,9 @@ struct Search {
   ReferenceDraws draws;     ///< of all rounds, the first of them from the prior
   StudentMixture fit;       ///< of the last round
   StudentMixture tempered;  ///< of the last round with beta below 0.3; without components if there was none
-  std::vector<TemperedPoints> rounds;  ///< without their points
+  double target = 0.0;      ///< effective size that chose beta in the end
+  Index most_modes = 1;     ///< separate modes of the fit of any round, at most
+  std::vector<TemperedPoints> rounds;  ///< of the last pass, without their points
   [[nodiscard]] double beta() const {
     return rounds.empty() ? 0.0 : rounds.back().beta;
   }  ///< of the last round
@@ -77,10 +81,12 @@ struct Search {
 
 /// Tempered population Monte Carlo from the prior (Cappe, Guillin, Marin and Robert 2004; Cornuet, Marin, Mira and Robert
 /// 2012): beta is chosen for the draws so far, a mixture is fitted to their weights for L^beta p and drawn from, until beta is 1 and
-/// the draws suffice, or the evaluations are spent. Unlike a population that is resampled, the draws of all rounds keep their
-/// weights, so that a mode that was met once cannot be lost.
+/// the draws suffice, or the evaluations are spent. The draws of all rounds keep their weights. At beta = 1 a round has half as many
+/// draws as there are effective ones.
+///
+/// The larger the target, the fewer modes are lost on the way, and the more evaluations it takes. So a search that
+/// comes to beta = 1 early is repeated from the prior with as large a target as the rest of the evaluations allows.
 /// \throws SamplingError as draw_and_evaluate; InfeasiblePriorError if no draw is feasible.
-[[nodiscard]] Search search_posterior(const Problem& problem, const SearchOptions& options,
-                                      const StreamKey& key);
+[[nodiscard]] Search search_posterior(const Problem& problem, SearchOptions options, const StreamKey& key);
 
 }  // namespace tmcmc

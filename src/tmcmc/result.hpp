@@ -132,13 +132,16 @@ enum class WarningKind {
   /// Independent draws: the searches have missed different parts of the posterior, so that both may
   /// have missed another.
   searches_differ,
-  /// Independent draws: their effective number is below 500 or below a twentieth of the draws.
+  /// Independent draws: their effective number is below 250 or below a twentieth of the draws.
   low_overlap,
   /// Independent draws: k-hat is above min(1 - 1 / log10(n), 0.7); the error of the log-evidence is
   /// a lower bound.
-  heavy_weights
+  heavy_weights,
+  /// Independent draws: beta was chosen by fewer than 30 effective draws, or by fewer than 25 for
+  /// each of several separate modes; another mode may have been lost.
+  few_draws_a_mode
 };
-constexpr std::array<std::string_view, 12> enumerator_names(std::type_identity<WarningKind>) {
+constexpr std::array<std::string_view, 13> enumerator_names(std::type_identity<WarningKind>) {
   return {"not completed",
           "few feasible draws",
           "few ancestors",
@@ -150,7 +153,8 @@ constexpr std::array<std::string_view, 12> enumerator_names(std::type_identity<W
           "search not completed",
           "searches differ",
           "low overlap",
-          "heavy weights"};
+          "heavy weights",
+          "few draws a mode"};
 }
 
 /// One finding.

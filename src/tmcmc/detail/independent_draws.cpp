@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "portable_math/sums.hpp"
+#include "tmcmc/detail/separate_modes.hpp"
 #include "tmcmc/log_weights.hpp"
 
 namespace tmcmc::detail {
@@ -28,24 +29,30 @@ StreamKey derived(const StreamKey& key, std::uint32_t number) {
   return result;
 }
 
-/// Effective size that the criterion asks of a population of so many draws as a fit takes.
-double effective_target(const Criterion& criterion, Index d) {
-  const double population = std::max(200.0, 40.0 * static_cast<double>(d));
+/// Share of a population that the criterion asks for as its effective size.
+double effective_share(const Criterion& criterion) {
   if (const auto* size = std::get_if<EffectiveSampleSize>(&criterion.rule)) {
-    return population * size->fraction;
+    return size->fraction;
   }
   const double target = std::get<CoefficientOfVariation>(criterion.rule).target;
-  return population / (1.0 + target * target);
+  return 1.0 / (1.0 + target * target);
 }
 
-SearchOptions search_options(const Options& options, const IndependentDraws& settings, Index d) {
-  constexpr double fewest = 2400.0;
+/// What one of two searches gets: populations of 200 draws, or 40 d, where the evaluations suffice for 20 of them besides 600
+/// draws. Smaller ones are quicker at the posterior, but lose modes.
+SearchOptions search_options(const Options& options, const IndependentDraws& settings, Index dimension) {
   const auto all = static_cast<double>(options.evaluation_budget);
-  const double target = effective_target(options.criterion, d);
-  return {.evaluations =
-              static_cast<Index>(0.5 * std::min(std::max(settings.search_share * all, fewest), 0.5 * all)),
-          .target = target,
-          .enough = 10.0 * target,
+  const auto d = static_cast<double>(dimension);
+  const double evaluations = 0.5 * std::min(1300.0 + settings.search_share * all, 0.64 * all);
+  const double least = std::max(30.0, std::min(d * d, 10.0 * d));
+  const double most = std::max(200.0, 40.0 * d);
+  const double population = std::clamp((evaluations - 600.0) / 20.0, least, most);
+  const double share = effective_share(options.criterion);
+  return {.evaluations = static_cast<Index>(evaluations),
+          .round = static_cast<Index>(std::max(population, evaluations / 48.0)),
+          .target = share * population,
+          .most_target = share * most,
+          .enough = 15.0 * share * population,
           .prior_share = settings.prior_share,
           .fit = settings.fit,
           .threads = options.threads,
@@ -64,11 +71,11 @@ ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMix
   return {.fitted = blend(fit, 1.0 - settings.tempered_share, tempered), .prior_share = settings.prior_share};
 }
 
-/// Share of the posterior mass, at up to 2000 of the draws, where a search has made fewer than 20 draws per unit of mass.
+/// Share of the posterior mass, at up to 2000 of the draws, where a search has made fewer than 8 draws per unit of mass.
 double missed_mass(const Search& search, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
                    double log_evidence, int threads) {
   constexpr Index most_points = 2000;
-  const double log_fewest = portable_math::log(20.0);
+  const double log_fewest = portable_math::log(8.0);
   const Index n = draws.z.rows();
   const Index stride = (n + most_points - 1) / most_points;
   Population z((n + stride - 1) / stride, draws.z.cols());
@@ -111,7 +118,15 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
     warn(Kind::searches_differ, "the product of the posterior masses that each of two searches has missed",
          missed_by_both, "above", most_missed_by_both, advice);
   }
-  constexpr double fewest_effective = 500.0;
+  const double fewest_a_mode = measured.modes > 1 ? 25.0 : 30.0;
+  if (!(measured.draws_a_mode >= fewest_a_mode)) {
+    warn(Kind::few_draws_a_mode,
+         measured.modes > 1 ? "the number of effective draws that chose beta, for each of several modes,"
+                            : "the number of effective draws that chose beta",
+         measured.draws_a_mode, "below", fewest_a_mode,
+         "another mode may have been lost; take more evaluations");
+  }
+  constexpr double fewest_effective = 250.0;
   constexpr double least_share = 0.05;
   const auto n = static_cast<double>(measured.weights.size());
   const double least = std::max(fewest_effective, least_share * n);
@@ -163,7 +178,7 @@ std::vector<StageRecord> records_of(const Search& search) {
     record.beta = search.rounds[r].beta;
     record.step = record.beta - (records.empty() ? 0.0 : records.back().beta);
     record.effective_sample_size = search.rounds[r].effective_sample_size;
-    record.evaluations = search.draws.counts[r];
+    record.evaluations = search.draws.counts[search.draws.counts.size() - search.rounds.size() + r];
     records.push_back(record);
   }
   return records;
@@ -185,12 +200,15 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
   const int threads = options.threads;
   MeasuredPosterior measured;
   const SearchOptions search = search_options(options, settings, problem.prior.dimension());
+  double target = search.most_target;
   std::array<Search, 2> searches;
   ReferenceDraws seen;  // by a fit
   for (std::uint32_t k = 0; k < 2; ++k) {
     searches[k] = search_posterior(problem, search, derived(key, k));
+    target = std::min(target, searches[k].target);
     measured.search_beta[k] = searches[k].beta();
     measured.evaluations += searches[k].draws.z.rows();
+    measured.modes = std::max(measured.modes, searches[k].most_modes);
     seen.append(searches[k].draws, threads);
   }
   measured.rounds = records_of(searches[0]);
@@ -205,9 +223,9 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
   };
   ReferenceDraws draws;
   for (std::uint32_t attempt = 0;; ++attempt) {
-    measured.reference = reference_of(
-        settings, fit_mixture(fit_points(seen, search.target), settings.fit, key, attempt), searches);
-    draws = draw((options.evaluation_budget - measured.evaluations) / 8, attempt);
+    measured.reference =
+        reference_of(settings, fit_mixture(fit_points(seen, target), settings.fit, key, attempt), searches);
+    draws = draw((options.evaluation_budget - measured.evaluations) / 6, attempt);
     const double effective = effective_sample_size(as_span(log_weights(draws)), 1.0);
     if (is_frozen(settings, effective / static_cast<double>(draws.z.rows()), attempt)) {
       break;
@@ -227,6 +245,8 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
   for (std::size_t k = 0; k < 2; ++k) {
     measured.missed_mass[k] = missed_mass(searches[k], draws, measured.weights, estimate.log_mean, threads);
   }
+  measured.modes = std::max(measured.modes, detail::separate_modes(measured.reference.fitted));
+  measured.draws_a_mode = target / static_cast<double>(measured.modes);
   measured.warnings = warnings_of(measured);
   return measured;
 }

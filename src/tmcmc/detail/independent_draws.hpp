@@ -25,13 +25,17 @@ struct MeasuredPosterior {
   double effective_sample_size = 0.0;
   /// k-hat of the largest weights, see pareto_shape().
   double pareto_shape = 0.0;
+  /// Separate modes that the searches have seen or the fit has.
+  Index modes = 1;
+  /// Effective draws that chose beta, for each of them.
+  double draws_a_mode = 0.0;
   /// What the draws are from, in unbounded coordinates.
   ReferenceDensity reference;
   /// Temperature that each search has reached.
   std::array<double, 2> search_beta{};
   /// Posterior mass where each search has hardly drawn.
   std::array<double, 2> missed_mass{};
-  /// Rounds of the first search.
+  /// Rounds of the first search, of its last pass.
   std::vector<StageRecord> rounds;
   /// The run that took over where the searches failed.
   std::optional<Result> tmcmc;

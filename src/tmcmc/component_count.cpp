@@ -1,0 +1,85 @@
+// The number of components of a mixture, by the log-density of points that it was not fitted to.
+
+#include <algorithm>
+#include <limits>
+
+#include "portable_math/multiversion.hpp"
+#include "portable_math/sums.hpp"
+#include "tmcmc/mixture_fit.hpp"
+
+namespace tmcmc {
+
+namespace {
+
+PORTABLE_MATH_MULTIVERSION
+double product_sum(const double* x, const double* y, Index n) {
+  return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i] * y[i]; });
+}
+
+double sum(const Eigen::VectorXd& x) {
+  return portable_math::sum_of(static_cast<std::size_t>(x.size()),
+                               [&](std::size_t i) { return x[static_cast<Index>(i)]; });
+}
+
+/// The points of even or odd groups.
+WeightedPoints half(const WeightedPoints& data, Index parity) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < data.points.rows(); ++i) {
+    if (data.groups[static_cast<std::size_t>(i)] % 2 == parity) {
+      rows.push_back(i);
+    }
+  }
+  const auto n = static_cast<Index>(rows.size());
+  WeightedPoints part{Population(n, data.points.cols()), Eigen::VectorXd(n), {}};
+  for (Index i = 0; i < n; ++i) {
+    part.points.row(i) = data.points.row(rows[static_cast<std::size_t>(i)]);
+    part.weights[i] = data.weights[rows[static_cast<std::size_t>(i)]];
+  }
+  return part;
+}
+
+double total_log_density(const StudentMixture& mixture, const WeightedPoints& data) {
+  const Eigen::VectorXd densities = log_density(mixture, data.points);
+  return product_sum(densities.data(), data.weights.data(), data.weights.size());
+}
+
+Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
+                 std::uint32_t stage) {
+  constexpr double clear_loss = 0.02;
+  const WeightedPoints even = half(data, 0);
+  const WeightedPoints odd = half(data, 1);
+  const double weight_even = sum(even.weights);
+  const double weight_odd = sum(odd.weights);
+  if (!(weight_even > 0.0) || !(weight_odd > 0.0)) {
+    return 1;
+  }
+  const auto d = static_cast<double>(data.points.cols());
+  // Of few points the score is noisy, and there are chance gains in many coordinates.
+  const double least_gain = std::max(options.gain_of_component, d / (weight_even + weight_odd));
+  double best_score = -std::numeric_limits<double>::infinity();
+  Index best = 1;
+  for (Index k = 1; k <= options.most_components; k *= 2) {
+    if (k > 1 && std::min(weight_even, weight_odd) < static_cast<double>(k) * (2.0 + 0.5 * d)) {
+      break;
+    }
+    const double score = (total_log_density(fit_mixture(even, k, options, key, stage), odd) +
+                          total_log_density(fit_mixture(odd, k, options, key, stage), even)) /
+                         (weight_even + weight_odd);
+    if (score > best_score + least_gain) {
+      best_score = score;
+      best = k;
+    } else if (score < best_score - clear_loss) {
+      break;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
+                           std::uint32_t stage) {
+  return fit_mixture(data, best_count(data, options, key, stage), options, key, stage);
+}
+
+}  // namespace tmcmc
