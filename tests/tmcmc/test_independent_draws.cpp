@@ -147,6 +147,25 @@ TEST_CASE("A wrong log-evidence comes with a warning where a spike holds most of
   CHECK(wrong == 0);
 }
 
+TEST_CASE("Few effective draws behind the choice of beta are warned of where there are several modes") {
+  const Problem five{problems::by_rows([](const auto& x) {
+                       constexpr double places[5][2] = {{-5, -5}, {6, -3}, {-6, 5}, {1, 1}, {5, 6}};
+                       double sum = 1e-300;
+                       for (const auto& place : places) {
+                         const double a = x[0] - place[0];
+                         const double b = x[1] - place[1];
+                         sum += std::exp(-50.0 * (a * a + b * b));
+                       }
+                       return std::log(sum);
+                     }),
+                     BoxPrior(Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(10.0, 10.0))};
+  for (std::uint32_t run = 0; run < 5; ++run) {
+    CHECK(warns(tmcmc::run(five, by_draws(5000), {.seed = 11, .run = run}), WarningKind::few_draws_a_mode));
+    CHECK_FALSE(
+        warns(tmcmc::run(normal(), by_draws(5000), {.seed = 11, .run = run}), WarningKind::few_draws_a_mode));
+  }
+}
+
 TEST_CASE("Where the searches do not come near the posterior, TMCMC takes over, with a warning") {
   const Problem wide{problems::by_rows([](const auto& x) { return -0.5 * x.squaredNorm(); }),
                      BoxPrior(Eigen::VectorXd::Constant(40, -10.0), Eigen::VectorXd::Constant(40, 10.0))};

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tmcmc/detail/separate_modes.hpp"
 #include "tmcmc/mixture_fit.hpp"
 
 using namespace tmcmc;
@@ -163,4 +164,37 @@ TEST_CASE("A coordinate without variance does not stop a fit, and no weight at a
   CHECK(std::isfinite(log_density(fit_mixture(data, 2, {}, {.seed = 13}, 0), data.points).sum()));
   data.weights.setZero();
   CHECK_THROWS_AS(fit_mixture(data, 2, {}, {.seed = 13}, 0), SamplingError);
+}
+
+TEST_CASE("A fit that starts from the last one is as near to new points as one from clusters") {
+  const StudentMixture truth = two_components();
+  const StudentMixture rough =
+      fit_mixture(equally_weighted_points(sample(truth, 60, {.seed = 14}, 0)), 2, {}, {.seed = 15}, 0);
+  const auto data = equally_weighted_points(sample(truth, 4000, {.seed = 16}, 0));
+  const StudentMixture improved = improve_mixture(data, rough, {});
+  CHECK(improved.size() <= rough.size());
+  const Population fresh = sample(truth, 4000, {.seed = 17}, 0);
+  const double before = (log_density(truth, fresh) - log_density(rough, fresh)).mean();
+  const double after = (log_density(truth, fresh) - log_density(improved, fresh)).mean();
+  CHECK(before > 0.03);
+  CHECK(after < 0.01);
+}
+
+TEST_CASE("Separate modes are counted where the density falls between components") {
+  const auto row_of = [](const std::vector<double>& places, const std::vector<double>& weights) {
+    StudentMixture mixture;
+    mixture.weights = Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Index>(weights.size()));
+    mixture.means = Eigen::MatrixXd::Zero(2, mixture.weights.size());
+    for (Index k = 0; k < mixture.size(); ++k) {
+      mixture.means(0, k) = places[static_cast<std::size_t>(k)];
+      mixture.factors.emplace_back(Eigen::MatrixXd::Identity(2, 2));
+    }
+    return mixture;
+  };
+  CHECK(detail::separate_modes(row_of({0.0}, {1.0})) == 1);
+  CHECK(detail::separate_modes(row_of({0.0, 2.0}, {0.5, 0.5})) == 1);
+  CHECK(detail::separate_modes(row_of({0.0, 10.0}, {0.5, 0.5})) == 2);
+  CHECK(detail::separate_modes(row_of({0.0, 6.0, 3.0}, {0.3, 0.4, 0.3})) == 1);  // the third joins the others
+  CHECK(detail::separate_modes(row_of({0.0, 10.0, 11.0, 20.0}, {0.3, 0.2, 0.2, 0.3})) == 3);
+  CHECK(detail::separate_modes(row_of({0.0, 10.0}, {0.995, 0.005})) == 1);
 }
