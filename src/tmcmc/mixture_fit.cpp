@@ -101,37 +101,54 @@ class Fit {
       mixture.factors = {factor};
       return mixture;
     }
-    Population white = data_.points;
+    // Every so many points are enough to start from.
+    constexpr Index most_points = 1000;
+    const Index stride = (n_ + most_points - 1) / most_points;
+    const Index n = (n_ + stride - 1) / stride;
+    Population points(n, d_);
+    Eigen::VectorXd weights(n);
     for (Index j = 0; j < d_; ++j) {
-      for (Index i = 0; i < n_; ++i) {
-        double value = data_.points(i, j) - mean_[j];
-        for (Index l = 0; l < j; ++l) {
-          value -= factor(j, l) * white(i, l);
-        }
-        white(i, j) = value / factor(j, j);
+      for (Index i = 0; i < n; ++i) {
+        points(i, j) = data_.points(i * stride, j) - mean_[j];
       }
     }
-    return from_clusters(components, detail::clusters(white, data_.weights, components, key, stage));
+    for (Index i = 0; i < n; ++i) {
+      weights[i] = data_.weights[i * stride];
+    }
+    const double total = sum(weights.data(), n);
+    if (!(total > 0.0)) {
+      return start(1, key, stage);
+    }
+    weights *= total_ / total;
+    Population white = points;
+    for (Index j = 0; j < d_; ++j) {
+      for (Index l = 0; l < j; ++l) {
+        white.col(j) -= factor(j, l) * white.col(l);
+      }
+      white.col(j) /= factor(j, j);
+    }
+    return from_clusters(points, weights, components,
+                         detail::clusters(white, weights, components, key, stage));
   }
 
   /// Components with the weights, means and covariances of the clusters.
-  [[nodiscard]] StudentMixture from_clusters(Index components, const std::vector<Index>& cluster_of) {
+  /// \param points  deviations from the mean of all points
+  [[nodiscard]] StudentMixture from_clusters(const Population& points, const Eigen::VectorXd& weights,
+                                             Index components, const std::vector<Index>& cluster_of) {
     StudentMixture mixture;
     mixture.degrees_of_freedom = options_.degrees_of_freedom;
     mixture.means = mean_.replicate(1, components);
     moments_.assign(static_cast<std::size_t>(components),
                     {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
     mixture.weights = Eigen::VectorXd::Zero(components);
-    Eigen::VectorXd deviation(d_);
-    for (Index i = 0; i < n_; ++i) {
+    for (Index i = 0; i < points.rows(); ++i) {
       Moments& moments = moments_[static_cast<std::size_t>(cluster_of[static_cast<std::size_t>(i)])];
-      const double weight = data_.weights[i];
+      const double weight = weights[i];
       moments.taken += weight;
       for (Index j = 0; j < d_; ++j) {
-        deviation[j] = data_.points(i, j) - mean_[j];
-        moments.first[j] += weight * deviation[j];
+        moments.first[j] += weight * points(i, j);
         for (Index l = 0; l <= j; ++l) {
-          moments.second(j, l) += weight * deviation[j] * deviation[l];
+          moments.second(j, l) += weight * points(i, j) * points(i, l);
         }
       }
     }

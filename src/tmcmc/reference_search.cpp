@@ -115,6 +115,18 @@ void ReferenceDraws::append(const ReferenceDraws& other, int threads) {
   counts.insert(counts.end(), other.counts.begin(), other.counts.end());
 }
 
+void ReferenceDraws::append_of_same_density(const ReferenceDraws& other) {
+  const auto before = static_cast<double>(counts.front());
+  const auto added = static_cast<double>(other.counts.front());
+  counts.front() += other.counts.front();
+  z = stacked(z, other.z);
+  log_prior = stacked(log_prior, other.log_prior);
+  log_likelihood = stacked(log_likelihood, other.log_likelihood);
+  const Eigen::VectorXd mine = log_mixture.array() + portable_math::log((before + added) / before);
+  const Eigen::VectorXd others = other.log_mixture.array() + portable_math::log((before + added) / added);
+  log_mixture = stacked(mine, others);
+}
+
 ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity& reference, Index n,
                                  const StreamKey& key, std::uint32_t stage, int threads, Index batch_rows) {
   ReferenceDraws draws{

@@ -20,6 +20,8 @@ struct ReferenceDraws {
 
   /// Adds draws; each density is evaluated at the draws of the other side.
   void append(const ReferenceDraws& other, int threads = 1);
+  /// Adds draws from the same single density as these.
+  void append_of_same_density(const ReferenceDraws& other);
 };
 
 /// n draws from a frozen density.

@@ -167,7 +167,7 @@ TEST_CASE("Few effective draws behind the choice of beta are warned of where the
 }
 
 TEST_CASE("Where the searches do not come near the posterior, TMCMC takes over, with a warning") {
-  const Problem wide{problems::by_rows([](const auto& x) { return -0.5 * x.squaredNorm(); }),
+  const Problem wide{problems::by_rows([](const auto& x) { return -5e5 * x.squaredNorm(); }),
                      BoxPrior(Eigen::VectorXd::Constant(40, -10.0), Eigen::VectorXd::Constant(40, 10.0))};
   const auto measured = run(wide, by_draws(6000), {.seed = 7});
   CHECK(warns(measured, WarningKind::search_not_completed));

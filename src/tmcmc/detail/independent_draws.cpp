@@ -15,7 +15,7 @@ namespace {
 /// Stages of Purpose::reference: the attempts of the joint fit count from 0.
 constexpr std::uint32_t final_draws_stage = 2000;
 
-constexpr double least_beta = 0.01;           // that one search has to reach
+constexpr double least_beta = 0.001;          // that one search has to reach
 constexpr double share_of_a_good_fit = 0.65;  // of the first trial draws
 constexpr double share_of_a_poor_fit = 0.1;   // below it there are more attempts
 constexpr std::uint32_t most_attempts = 4;    // of the joint fit
@@ -71,10 +71,24 @@ ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMix
   return {.fitted = blend(fit, 1.0 - settings.tempered_share, tempered), .prior_share = settings.prior_share};
 }
 
-/// Share of the posterior mass, at up to 2000 of the draws, where a search has made fewer than 8 draws per unit of mass.
+/// The points of both, each with their own weights. Since a density is fitted to them, and no more, the evidence of one search
+/// need not be known relative to that of the other.
+WeightedPoints united(const WeightedPoints& a, const WeightedPoints& b) {
+  if (a.points.rows() == 0 || b.points.rows() == 0) {
+    return a.points.rows() == 0 ? b : a;
+  }
+  WeightedPoints all{Population(a.points.rows() + b.points.rows(), a.points.cols()),
+                     Eigen::VectorXd(a.points.rows() + b.points.rows()), a.groups};
+  all.points << a.points, b.points;
+  all.weights << a.weights, b.weights;
+  all.groups.insert(all.groups.end(), b.groups.begin(), b.groups.end());
+  return all;
+}
+
+/// Share of the posterior mass, at up to 1000 of the draws, where a search has made fewer than 8 draws per unit of mass.
 double missed_mass(const Search& search, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
                    double log_evidence, int threads) {
-  constexpr Index most_points = 2000;
+  constexpr Index most_points = 1000;
   const double log_fewest = portable_math::log(8.0);
   const Index n = draws.z.rows();
   const Index stride = (n + most_points - 1) / most_points;
@@ -202,14 +216,12 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
   const SearchOptions search = search_options(options, settings, problem.prior.dimension());
   double target = search.most_target;
   std::array<Search, 2> searches;
-  ReferenceDraws seen;  // by a fit
   for (std::uint32_t k = 0; k < 2; ++k) {
     searches[k] = search_posterior(problem, search, derived(key, k));
     target = std::min(target, searches[k].target);
     measured.search_beta[k] = searches[k].beta();
     measured.evaluations += searches[k].draws.z.rows();
     measured.modes = std::max(measured.modes, searches[k].most_modes);
-    seen.append(searches[k].draws, threads);
   }
   measured.rounds = records_of(searches[0]);
   if (std::max(measured.search_beta[0], measured.search_beta[1]) < least_beta) {
@@ -221,18 +233,25 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
     measured.evaluations += n;
     return draw_and_evaluate(problem, measured.reference, n, key, stage, threads, options.batch_rows);
   };
+  WeightedPoints points =
+      united(fit_points(searches[0].draws, target), fit_points(searches[1].draws, target));
+  ReferenceDraws seen;  // by a fit, from the second attempt on
   ReferenceDraws draws;
   for (std::uint32_t attempt = 0;; ++attempt) {
-    measured.reference =
-        reference_of(settings, fit_mixture(fit_points(seen, target), settings.fit, key, attempt), searches);
+    measured.reference = reference_of(settings, fit_mixture(points, settings.fit, key, attempt), searches);
     draws = draw((options.evaluation_budget - measured.evaluations) / 6, attempt);
     const double effective = effective_sample_size(as_span(log_weights(draws)), 1.0);
     if (is_frozen(settings, effective / static_cast<double>(draws.z.rows()), attempt)) {
       break;
     }
+    if (attempt == 0) {
+      seen.append(searches[0].draws, threads);
+      seen.append(searches[1].draws, threads);
+    }
     seen.append(draws, threads);
+    points = fit_points(seen, target);
   }
-  draws.append(draw(options.evaluation_budget - measured.evaluations, final_draws_stage), threads);
+  draws.append_of_same_density(draw(options.evaluation_budget - measured.evaluations, final_draws_stage));
 
   const Eigen::VectorXd log_weight = log_weights(draws);
   const ImportanceEstimate estimate = importance_estimate(as_span(log_weight));
