@@ -5,6 +5,7 @@
 //
 // Data: data/examples/, made by data/examples/simulate_frame.py; or the reader's own measurements.
 
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -34,9 +35,12 @@ const char* advice(tmcmc::StopReason stop) {
   }
 }
 
-/// The checkpoint of a run, counted from 1; empty for none.
-std::string checkpoint_of(const std::string& base, long run, long runs) {
-  return base.empty() || runs == 1 ? base : fmt::format("{}.{}", base, run);
+/// The checkpoint of a run, counted from 1; empty for none. A device, which keeps nothing, serves all runs.
+std::string checkpoint_of(const std::string& base, long run) {
+  std::error_code ignored;
+  const bool is_device =
+      std::filesystem::exists(base, ignored) && !std::filesystem::is_regular_file(base, ignored);
+  return base.empty() || run == 1 || is_device ? base : fmt::format("{}.{}", base, run);
 }
 
 /// Where the stages are kept: --checkpoint, or beside a file of samples.
@@ -47,7 +51,7 @@ std::string checkpoint_base(const ProblemOptions& problem, bool has_file) {
     throw std::invalid_argument("--checkpoint: value '-': expected a file");
   }
   for (long run = 1; run <= problem.runs && !base.empty() && !problem.netcdf.empty(); ++run) {
-    if (io::is_same_output(checkpoint_of(base, run, problem.runs), problem.netcdf)) {
+    if (io::is_same_output(checkpoint_of(base, run), problem.netcdf)) {
       throw std::invalid_argument(
           fmt::format("--netcdf: value '{}': expected another file than the checkpoint",
                       io::printable_path(problem.netcdf)));
@@ -108,7 +112,7 @@ int main(int argc, char** argv) {
     for (long r = 1; r <= problem.runs; ++r) {
       run.key.run = static_cast<std::uint32_t>(r - 1);
       progress.begin(r);
-      const std::string kept = checkpoint_of(checkpoint, r, problem.runs);
+      const std::string kept = checkpoint_of(checkpoint, r);
       results.push_back(run_kept(run, *shared, kept, [&](const auto& stage) { progress.update(stage); }));
       require_completed(results.back(), kept);
     }
@@ -124,7 +128,7 @@ int main(int argc, char** argv) {
     io::commit_all(csv, summary_csv, netcdf);
     figures.make(results, model.prior, report);
     for (long r = 1; r <= problem.runs; ++r) {
-      storage::remove_checkpoint(checkpoint_of(checkpoint, r, problem.runs));
+      storage::remove_checkpoint(checkpoint_of(checkpoint, r));
     }
   });
 }
