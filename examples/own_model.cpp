@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
     }
 
     // 2. All outputs are opened before the first call of the model.
-    auto csv = open_csv(problem.output, sample_columns(model.prior, problem.runs, options.finish));
+    auto csv = open_csv(problem.output, sample_columns(model.prior, problem.runs));
     auto summary_csv = open_csv(problem.summary, summary_columns());
     std::optional<io::OutputFile> netcdf;
     if (!problem.netcdf.empty()) {
@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     const auto summary = summarise(results, model.prior);
     print_summary(report, summary, results);
     write_summary(summary_csv, summary);
-    write_samples(csv, results, options.finish);
+    write_samples(csv, results);
     if (netcdf) {
       storage::write_inference_data(*netcdf, inference_data(results, model, problem.seed));
     }

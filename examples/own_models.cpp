@@ -196,11 +196,10 @@ tmcmc::LogLikelihood program_of(const ProblemOptions& options, const std::vector
 Model other_program(const ProblemOptions& options, const Listeners& listeners) {
   const auto require_name = [&](const std::string& name) {
     if (name.empty() || io::printable(name, std::string::npos) != name || name == "log_likelihood" ||
-        (name == "run" && options.runs > 1) || (name == "weight" && options.is_given("--finish"))) {
+        (name == "run" && options.runs > 1)) {
       throw errors::InvalidValue("parameter", name,
-                                 name == "run" || name == "weight"
-                                     ? "another name, which a column of the samples has"
-                                     : "a printable name other than log_likelihood");
+                                 name == "run" ? "another name, which a column of the samples has"
+                                               : "a printable name other than log_likelihood");
     }
     if (!options.netcdf.empty()) {
       storage::require_parameter_name(name);

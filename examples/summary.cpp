@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 #include <utility>
-#include <variant>
 
 #include "build_info.hpp"
 #include "statistics/summary.hpp"
@@ -45,6 +44,12 @@ std::vector<Index> equal_rows(const tmcmc::Result& run, Index draws) {
     rows.push_back(row);
   }
   return rows;
+}
+
+/// As many as the weighted samples are worth: all if the weights are equal.
+Index equal_draws(const tmcmc::Result& run) {
+  return run.measurement ? std::max<Index>(1, std::lround(run.measurement->effective_sample_size))
+                         : run.final.points.rows();
 }
 
 /// Linear between the middles of the steps of the weighted distribution function.
@@ -185,23 +190,19 @@ void write_summary(experiments::OptionalCsv& csv, const std::vector<ParameterSum
   }
 }
 
-std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs, const tmcmc::Finish& finish) {
+std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs) {
   auto columns = prior.names();
   columns.emplace_back("log_likelihood");
   if (runs > 1) {
     columns.insert(columns.begin(), "run");
   }
-  if (std::holds_alternative<tmcmc::IndependentDraws>(finish)) {
-    columns.emplace_back("weight");
-  }
   return columns;
 }
 
-void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs,
-                   const tmcmc::Finish& finish) {
+void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto& samples = runs[r].final;
-    for (Index i = 0; i < samples.points.rows(); ++i) {
+    for (const Index i : equal_rows(runs[r], equal_draws(runs[r]))) {
       std::vector<double> row;
       if (runs.size() > 1) {
         row.push_back(static_cast<double>(r + 1));
@@ -210,9 +211,6 @@ void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Resul
         row.push_back(samples.points(i, j));
       }
       row.push_back(samples.log_likelihood[i]);
-      if (std::holds_alternative<tmcmc::IndependentDraws>(finish)) {
-        row.push_back(runs[r].weights[i]);
-      }
       csv.row(row);
     }
   }
@@ -221,9 +219,9 @@ void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Resul
 storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs, const Model& model,
                                       std::uint64_t seed) {
   storage::InferenceData data{.parameter_names = model.prior.names(), .parameter_units = model.prior.units()};
-  Index draws = runs.front().final.points.rows();
+  Index draws = equal_draws(runs.front());
   for (const auto& run : runs) {
-    draws = std::min(draws, run.final.points.rows());
+    draws = std::min(draws, equal_draws(run));
   }
   data.chains = static_cast<Index>(runs.size());
   data.samples.resize(draws * data.chains, model.prior.dimension());

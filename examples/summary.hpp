@@ -42,15 +42,13 @@ void print_summary(const experiments::Report& report, const std::vector<Paramete
 [[nodiscard]] const std::vector<std::string>& summary_columns();
 void write_summary(experiments::OptionalCsv& csv, const std::vector<ParameterSummary>& summary);
 
-/// Columns of the CSV file of the samples: the run if there are several, parameters, log-likelihood, and the weight if they differ.
-[[nodiscard]] std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs,
-                                                      const tmcmc::Finish& finish);
-/// Its rows.
-void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs,
-                   const tmcmc::Finish& finish);
+/// Columns of the CSV file of the samples: the run if there are several, parameters, log-likelihood.
+[[nodiscard]] std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs);
+/// Its rows, of equal weight: of weighted samples as many as they are worth, evenly spaced in the sum of the weights.
+void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs);
 
 /// Samples, stages and observations in the layout of ArviZ, runs as chains of the length of the shortest, with equal
-/// weights: of each run samples that are evenly spaced in the sum of its weights.
+/// weights as in the CSV file.
 [[nodiscard]] storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs,
                                                     const Model& model, std::uint64_t seed);
 

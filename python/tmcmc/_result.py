@@ -31,6 +31,16 @@ class Run:
     evaluations: int  #: log-likelihoods that were computed
     stop: str  #: why the run ended
 
+    def _equal_draws(self) -> int:
+        if np.ptp(self.weights) == 0.0:
+            return len(self.weights)
+        return max(1, round(float(np.sum(self.weights)) ** 2 / float(np.sum(self.weights**2))))
+
+    def _equal_rows(self, draws: int) -> NDArray[np.intp]:
+        sums = np.cumsum(self.weights)
+        rows = np.searchsorted(sums, (np.arange(draws) + 0.5) * (sums[-1] / draws), side="right")
+        return np.minimum(rows, len(sums) - 1)
+
 
 class Summary(dict[str, dict[str, float]]):
     """Statistics by name for each parameter; prints as a table."""
@@ -61,6 +71,11 @@ class Result:
     def weights(self) -> Array:
         """Weights of the samples, which sum to 1: each run counts the same."""
         return np.concatenate([run.weights / len(self.runs) for run in self.runs])
+
+    def equally_weighted(self) -> Array:
+        """Samples of all runs with equal weights, (n, d): as many as the weighted ones are worth, evenly spaced in the sum of the
+        weights; all if the weights are equal. Their bytes are those of the file that own_model writes."""
+        return np.concatenate([run.samples[run._equal_rows(run._equal_draws())] for run in self.runs])
 
     @property
     def log_likelihood(self) -> Array:
@@ -121,16 +136,14 @@ class Result:
     def to_xarray(self) -> dict[str, Any]:
         """The groups posterior and sample_stats in the layout of ArviZ's InferenceData, as xarray.Dataset; runs are chains.
 
-        Chains have the length of the shortest run and equal weights: of each run samples are taken that are evenly spaced in the
-        sum of its weights.
+        Chains have the length of the shortest run and equal weights, as those of equally_weighted().
         """
         try:
             import xarray
         except ImportError as error:
             raise ImportError("to_xarray and to_netcdf need xarray (Debian: python3-xarray)") from error
-        length = min(len(run.samples) for run in self.runs)
-        levels = (np.arange(length) + 0.5) / length
-        rows = [np.minimum(np.searchsorted(np.cumsum(run.weights), levels), len(run.samples) - 1) for run in self.runs]
+        length = min(run._equal_draws() for run in self.runs)
+        rows = [run._equal_rows(length) for run in self.runs]
         coordinates = {"chain": np.arange(len(self.runs)), "draw": np.arange(length)}
         attributes = {
             "inference_library": "tmcmc_companion",

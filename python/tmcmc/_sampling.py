@@ -38,7 +38,7 @@ def sample(
     evaluations: int = 31000,
     seed: int = 1,
     runs: int = 1,
-    chains: int = 100,
+    chains: int | None = None,
     **options: str | float | bool,
 ) -> Result:
     """Samples the posterior by waste-free TMCMC and estimates the evidence.
@@ -53,11 +53,11 @@ def sample(
         evaluations: budget of log-likelihoods of a run, at least 500 and 26 a chain.
         seed: of all random numbers. The same seed gives the same samples, on any machine as far as the log-likelihood does.
         runs: number of independent runs, each with the whole budget.
-        chains: number of points in most calls of the log-likelihood. Many make the call of a vectorised function worth
-            its overhead; few let the chains grow longer.
-        options: options of the sampler by their names in tmcmc.options(), such as ``finish="independent"`` for weighted
-            independent draws, which come in large calls and give the evidence best; ``cross_fit=True``; or
-            ``criterion="coefficient of variation"``.
+        chains: of TMCMC, 100 unless given: the number of points in most of its calls of the log-likelihood. Many make the call of
+            a vectorised function worth its overhead; few let the chains grow longer.
+        options: options of the sampler by their names in tmcmc.options(), such as ``finish="none"`` for the last population of
+            TMCMC or ``cross_fit=True``. If neither they nor chains are given, and from 5000 evaluations on, weighted independent
+            draws measure the posterior (``finish="independent"``): they come in large calls and give the evidence best.
 
     Raises:
         LogLikelihoodError: naming the point, if the log-likelihood raises an exception or returns NaN, plus infinity or another
@@ -67,12 +67,14 @@ def sample(
         TypeError: for an option that there is not.
     """
     given = _options(options)
+    if chains is None and not given and evaluations >= _FEWEST_FOR_INDEPENDENT_DRAWS:
+        given = {"finish": "independent"}
     marginals = marginals_of(prior)
     names = [name for name, _, _ in marginals]
     if runs < 1:
         raise ValueError(f"runs = {runs}: expected at least 1")
     batch = _Batch(log_likelihood, names)
-    results = [Run(**_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
+    results = [Run(**_core.run(batch, marginals, evaluations, 100 if chains is None else chains, seed, number, given)) for number in range(runs)]
     result = Result(names, results, seed)
     for number, run in enumerate(results):
         for message in run.warnings:
@@ -85,6 +87,8 @@ def options() -> dict[str, str]:
     """The options of the sampler that sample() takes beside its own, with what each is for and the values that it has."""
     return {name: f"{text}: {expected}" for name, text, expected in _core.options() if name not in _OWN}
 
+
+_FEWEST_FOR_INDEPENDENT_DRAWS = 5000
 
 #: set by arguments of sample(), or of no use from Python
 _OWN = ("evaluation_budget", "chains", "threads", "diagnose")
