@@ -19,7 +19,6 @@ using experiments::count;
 using experiments::option_of;
 
 constexpr long default_chains = 100;
-constexpr long fewest_for_independent_draws = 5000;
 const std::vector<std::string> built_in_models = {"shear_frame", "friction"};
 /// Set by keys of their own.
 const std::vector<std::string> no_sampler_options = {"evaluation_budget", "threads", "batch_rows",
@@ -186,19 +185,18 @@ tmcmc::Options ProblemOptions::sampler() const {
     const auto found = sampler_.find(name);
     return found == sampler_.end() ? std::nullopt : found->second;
   };
+  const bool is_chosen = std::any_of(sampler_.begin(), sampler_.end(),
+                                     [](const auto& option) { return option.second.has_value(); });
   tmcmc::Options options;
   try {
     const auto chains = given("chains");
-    options = tmcmc::recommended_moves(evaluations, chains ? std::stol(*chains) : default_chains);
+    const long number = chains ? std::stol(*chains) : default_chains;
+    options = is_chosen ? tmcmc::recommended_moves(evaluations, number)
+                        : tmcmc::recommended_options(evaluations, number);
   } catch (const errors::InvalidValue& error) {
     const std::string name = error.field().substr(error.field().find('.') + 1);
     throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), error.value()), "",
                                error.expected());
-  }
-  const bool is_chosen = std::any_of(sampler_.begin(), sampler_.end(),
-                                     [](const auto& option) { return option.second.has_value(); });
-  if (!is_chosen && evaluations >= fewest_for_independent_draws) {
-    options.finish = tmcmc::IndependentDraws{};
   }
   experiments::set_sampler_options(options, given, place);
   options.threads = thread_count();

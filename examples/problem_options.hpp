@@ -59,8 +59,8 @@ class ProblemOptions {
   [[nodiscard]] bool is_given(const std::string& option) const;
   /// Whether the model is another program.
   [[nodiscard]] bool is_other_program() const;
-  /// The recommended sampler with chains enough that a batch is worth the start of a program, and the options that were given. If
-  /// none were, and from 5000 evaluations on, independent draws finish the run: their batches are large and their evidence is precise.
+  /// The recommended options, with chains enough that a batch is worth the start of a program; if an option of the sampler was given,
+  /// the recommended moves with it.
   /// \throws errors::InvalidValue naming the option or the place in the file.
   [[nodiscard]] tmcmc::Options sampler() const;
   /// The threads, resolved.

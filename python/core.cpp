@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -79,10 +80,14 @@ tmcmc::Prior prior_of(const Marginals& marginals) {
 
 using GivenOptions = std::map<std::string, std::string>;
 
-/// The recommended options with those that were given, whose names the caller has checked.
-tmcmc::Options options_of(long evaluations, long chains, const GivenOptions& given) {
+constexpr long default_chains = 100;
+
+/// The recommended options; the recommended moves with what was given, whose names the caller has checked.
+tmcmc::Options options_of(long evaluations, std::optional<long> chains, const GivenOptions& given) {
   try {
-    tmcmc::Options options = tmcmc::recommended_moves(evaluations, chains);
+    tmcmc::Options options = chains || !given.empty()
+                                 ? tmcmc::recommended_moves(evaluations, chains.value_or(default_chains))
+                                 : tmcmc::recommended_options(evaluations, default_chains);
     for (const auto& option : tmcmc::option_table()) {  // in the order in which they can be set
       if (const auto found = given.find(std::string(option.name)); found != given.end()) {
         tmcmc::set_option(options, option.name, found->second);
@@ -98,8 +103,9 @@ tmcmc::Options options_of(long evaluations, long chains, const GivenOptions& giv
 }
 
 /// \param marginals  of each parameter its name, the name of its distribution and the arguments by name
-py::dict run(const py::function& log_likelihood, const Marginals& marginals, long evaluations, long chains,
-             std::uint64_t seed, std::uint32_t run_number, const GivenOptions& given) {
+py::dict run(const py::function& log_likelihood, const Marginals& marginals, long evaluations,
+             std::optional<long> chains, std::uint64_t seed, std::uint32_t run_number,
+             const GivenOptions& given) {
   const tmcmc::Options options = options_of(evaluations, chains, given);
   const tmcmc::Problem problem{batch_of(log_likelihood), prior_of(marginals)};
   tmcmc::Result result;

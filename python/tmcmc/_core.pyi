@@ -17,7 +17,7 @@ def run(
     log_likelihood: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     marginals: Marginals,
     evaluations: int,
-    chains: int,
+    chains: int | None,
     seed: int,
     run: int,
     options: dict[str, str],

@@ -56,7 +56,7 @@ def sample(
         chains: of TMCMC, 100 unless given: the number of points in most of its calls of the log-likelihood. Many make the call of
             a vectorised function worth its overhead; few let the chains grow longer.
         options: options of the sampler by their names in tmcmc.options(), such as ``finish="none"`` for the last population of
-            TMCMC or ``cross_fit=True``. If neither they nor chains are given, and from 5000 evaluations on, weighted independent
+            TMCMC or ``cross_fit=True``. If neither they nor chains are given, and from 3000 evaluations on, weighted independent
             draws measure the posterior (``finish="independent"``): they come in large calls and give the evidence best.
 
     Raises:
@@ -67,14 +67,12 @@ def sample(
         TypeError: for an option that there is not.
     """
     given = _options(options)
-    if chains is None and not given and evaluations >= _FEWEST_FOR_INDEPENDENT_DRAWS:
-        given = {"finish": "independent"}
     marginals = marginals_of(prior)
     names = [name for name, _, _ in marginals]
     if runs < 1:
         raise ValueError(f"runs = {runs}: expected at least 1")
     batch = _Batch(log_likelihood, names)
-    results = [Run(**_core.run(batch, marginals, evaluations, 100 if chains is None else chains, seed, number, given)) for number in range(runs)]
+    results = [Run(**_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
     result = Result(names, results, seed)
     for number, run in enumerate(results):
         for message in run.warnings:
@@ -87,8 +85,6 @@ def options() -> dict[str, str]:
     """The options of the sampler that sample() takes beside its own, with what each is for and the values that it has."""
     return {name: f"{text}: {expected}" for name, text, expected in _core.options() if name not in _OWN}
 
-
-_FEWEST_FOR_INDEPENDENT_DRAWS = 5000
 
 #: set by arguments of sample(), or of no use from Python
 _OWN = ("evaluation_budget", "chains", "threads", "diagnose")

@@ -54,10 +54,10 @@ Node node_of(const toml::node& from, const std::string& path) {
   if (const auto* table = from.as_table()) {
     Table entries;
     for (const auto& [key, value] : *table) {
-      entries.emplace_back(std::string(key.str()), node_of(value, path));
+      entries.push_back({std::string(key.str()), node_of(value, path)});
     }
     const auto place = [&](const auto& entry) {  // toml++ sorts keys by their names
-      const auto begin = table->get(entry.first)->source().begin;
+      const auto begin = table->get(entry.key)->source().begin;
       return std::pair(begin.line, begin.column);
     };
     std::stable_sort(entries.begin(), entries.end(),
@@ -91,9 +91,8 @@ const Node* Node::find(std::string_view key) const {
   if (table == nullptr) {
     return nullptr;
   }
-  const auto found =
-      std::find_if(table->begin(), table->end(), [&](const auto& e) { return e.first == key; });
-  return found == table->end() ? nullptr : &found->second;
+  const auto found = std::find_if(table->begin(), table->end(), [&](const auto& e) { return e.key == key; });
+  return found == table->end() ? nullptr : &found->node;
 }
 
 bool Node::is_number() const {

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,10 +13,11 @@
 namespace problem {
 
 struct Node;
+struct Entry;
 /// The values of an array.
 using Array = std::vector<Node>;
 /// Keys with their values, in the order of the file.
-using Table = std::vector<std::pair<std::string, Node>>;
+using Table = std::vector<Entry>;
 
 /// One value of a file.
 struct Node {
@@ -32,6 +32,12 @@ struct Node {
   [[nodiscard]] bool is_number() const;
   /// An integer or float as a double. \throws std::bad_variant_access for another value.
   [[nodiscard]] double number() const;
+};
+
+/// A key of a table.
+struct Entry {
+  std::string key;  ///< its name
+  Node node;        ///< its value
 };
 
 /// A file and its root, which is a table.
