@@ -9,9 +9,9 @@ const { browser, page } = await open({ viewport: { width: 1080, height: 800 } })
 const state = (id, name) => page.waitForFunction(([id, name]) => document.getElementById(id).dataset[name] !== undefined, [id, name]);
 const views = {
   study: ["", () => finished(page)],
-  knobs: ["#part=knobs", async () => {
+  knobs: ["#part=knobs&runs=10", async () => {
     await finished(page);
-    for (const [id, value] of [["ess", "0.8"], ["ess", "0.3"], ["ess", "0.5"], ["steps", "10"], ["steps", "20"]]) {
+    for (const [id, value] of [["ess", "0.8"], ["ess", "0.5"], ["steps", "20"]]) {
       await page.locator("#" + id).fill(value);
       await finished(page);
     }
