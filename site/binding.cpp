@@ -197,10 +197,10 @@ class Study {
     return boxes;
   }
 
-  /// The samples of one parameter of a sampler's last run.
+  /// The samples of one parameter of a sampler's last run, in ascending order; of weighted ones 1000 that were drawn.
   [[nodiscard]] val samples(std::size_t arm, std::size_t parameter) const {
-    return numbers(
-        Eigen::VectorXd(runs_.at(arm).back().result.final.points.col(static_cast<Eigen::Index>(parameter))));
+    const auto sorted = ecdfs_.at(arm).at(parameter).back().sorted();
+    return numbers(sorted.data(), sorted.size());
   }
 
   /// The bytes that sampling_study writes: "runs", "stages" or "samples".
