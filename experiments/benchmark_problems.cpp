@@ -1,4 +1,4 @@
-// The sampler on problems with known evidence: the paper's setting, the recommended TMCMC, and independent draws, each at the
+// The sampler on problems with known evidence: the paper's setting, better moves, and the recommended options, each at the
 // same number of log-likelihoods. Errors of the log-evidence against the stated ones, warnings, effective draws, and masses of
 // modes. What to look for: |z| above 5 without a warning.
 //
@@ -21,7 +21,7 @@ constexpr std::uint64_t seed_of_rigs = 2026;
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "The paper's sampler, the recommended one and independent draws at equal cost on problems with\n"
+      "The paper's sampler, better moves and the recommended options at equal cost on problems with\n"
       "known evidence: friction, Gaussians, bananas, modes, funnel, plateau, spike, corner, frames.",
       "benchmark_problems");
   Report report(app);
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   add_output(app, output, "CSV with one row a problem, sampler and number of evaluations");
   app.add_option("--problem", only, "Only problems whose name begins so, for example 'banana'")
       ->type_name("TEXT");
-  app.add_option("--sampler", only_sampler, "Only this sampler, for example 'independent draws'")
+  app.add_option("--sampler", only_sampler, "Only this sampler, for example 'better moves'")
       ->type_name("TEXT");
   app.add_option("--rigs", rigs, "Simulated rigs, whose parameters are drawn from the prior")
       ->transform(count(0, 1000));
@@ -70,14 +70,14 @@ int main(int argc, char** argv) {
     }
     using Sampler = replication::BenchmarkSampler;
     std::vector<Sampler> samplers;
-    for (const Sampler sampler : {Sampler::published, Sampler::recommended, Sampler::independent_draws}) {
+    for (const Sampler sampler : {Sampler::published, Sampler::better_moves, Sampler::recommended}) {
       if (only_sampler.empty() || only_sampler == replication::describe(sampler)) {
         samplers.push_back(sampler);
       }
     }
     if (samplers.empty()) {
       throw std::invalid_argument(fmt::format(
-          "--sampler: value '{}': expected published, recommended or independent draws", only_sampler));
+          "--sampler: value '{}': expected published, better moves or recommended", only_sampler));
     }
     const auto chosen = [&](const auto& p) { return p.name.starts_with(only); };
     const auto chosen_count = std::count_if(problems.begin(), problems.end(), chosen);

@@ -13,7 +13,7 @@ budget = 31000
 orange = '#E69F00'
 sky = '#56B4E9'
 families = '"criterion" "samples" "steps" "scale" "moves" "chains" "better moves" "recommended" "recommended CoV = 1"'
-titles = '"Criterion: N_{eff} from 0.9 N to 0.1 N" "Samples: N from 300 to 10 000" "Steps: 1 to 20" "Scale of the proposal" "Better proposals, one by one" "Waste-free, 8 to 128 chains" "The best of these, six budgets" "Recommended, {/:Italic N}/2, four budgets" "Recommended, CoV = 1, four budgets"'
+titles = '"Criterion: N_{eff} from 0.9 N to 0.1 N" "Samples: N from 300 to 10 000" "Steps: 1 to 20" "Scale of the proposal" "Better proposals, one by one" "Waste-free, 8 to 128 chains" "The best of these, six budgets" "Recommended, {/:Italic N}_{eff} = {/:Italic N}/2" "Recommended, CoV = 1"'
 set style line 21 lc rgb 'black' lw 0.9 pt 6 ps 0.6
 set style line 22 lc rgb sky lw 0.9 pt 5 ps 0.5
 set style line 23 lc rgb orange lw 0.9 pt 9 ps 0.6
@@ -31,6 +31,7 @@ set lmargin at screen 0.085
 set rmargin at screen 0.70
 set arrow 1 from budget, graph 0 to budget, graph 1 nohead back lc rgb grey dt (4, 4) lw 0.9
 
+unset key
 set multiplot
 do for [panel = 1:3] {
   set label 1 sprintf('(%s)', 'abc'[panel:panel]) at graph 0.012, 0.92 font 'Nimbus Sans:Bold,8.5' front
@@ -59,8 +60,6 @@ do for [panel = 1:3] {
     set yrange [0.0012:10]
     set ytics (0.002, 0.01, 0.05, 0.2, 1, 5) format '%g'
   }
-  if (panel == 1) { set key at screen 0.715, 0.985 left top maxcols 1 maxrows 14 Left reverse samplen 2 width 0 spacing 1.05 font ',7.5' } else { unset key }
-  show_floor = panel < 3 ? 1 : NaN
   plot floor_areas using (3000): \
          (strcol('runs') eq '50' && strcol('samples') eq '1000' && panel < 3 ? column(name) : NaN):(1097000):(0) \
          with vectors nohead ls EXACT dt '-', \
@@ -69,12 +68,30 @@ do for [panel = 1:3] {
          with vectors nohead ls EXACT dt '.', \
        for [i = 1:9] settings using 'evaluations':(own(word(families, i), quantity)) with points ls 20 + i, \
        for [i = 7:9] settings using 'evaluations':(strcol('family') eq word(families, i) ? column(quantity) : 1/0) with lines ls 20 + i, \
-       settings using 'evaluations':(own('published', quantity)) with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion, \
+       settings using 'evaluations':(own('published', quantity)) with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion
+}
+
+# The key takes the height of all panels.
+unset label
+unset arrow
+unset tics
+unset xlabel
+unset ylabel
+unset grid
+unset logscale
+set border 0
+set lmargin at screen 0.705
+set rmargin at screen 0.999
+set tmargin at screen 0.995
+set bmargin at screen 0.085
+set xrange [0:1]
+set yrange [0:1]
+set key inside left top maxcols 1 Left reverse samplen 2 width 0 spacing 1.15 font ',7.5'
+plot NaN notitle, \
        keyentry with points pt 3 ps 1.1 lw 1.6 lc rgb vermillion title 'Published setting', \
        for [i = 1:6] keyentry with points ls 20 + i title word(titles, i), \
        for [i = 7:9] keyentry with linespoints ls 20 + i title word(titles, i), \
        keyentry with lines ls EXACT dt '-' title '50 runs of 1000 exact draws', \
        keyentry with lines ls EXACT dt '.' title '50 runs of 16 000 exact draws', \
        keyentry with lines lc rgb grey dt (4, 4) lw 0.9 title '31 000 evaluations'
-}
 unset multiplot

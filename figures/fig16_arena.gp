@@ -15,7 +15,7 @@ spaced(s) = strstrt(s, '_') ? s[1:strstrt(s, '_') - 1].' '.spaced(s[strstrt(s, '
 plain(s) = strstrt(s, ';') ? spaced(s[1:strstrt(s, ';') - 1].','.s[strstrt(s, ';') + 1:]) : spaced(s)
 place(name) = sum [i = 1:words(problems)] (word(problems, i) eq joined(name) ? i : 0)
 
-samplers = '"published" "recommended" "independent draws"'
+samplers = '"published" "better moves" "recommended"'
 titles = '"Published setting" "Better moves" "Recommended: independent draws"'
 budgets = '3000 10000 31000'
 budget_titles = '"3 000 evaluations" "10 000" "31 000"'

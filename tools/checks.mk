@@ -1,7 +1,7 @@
 # Checks of the code, of the committed files and of the machine's independence; docs/checks.md says what each has found.
 
 .PHONY: test verify verify-parts check-manifest another-seed identical format-check reuse bench scaling sanitize tidy coverage mutations \
-  fuzz build-mpi test-mpi bench-mpi python test-python docs install
+  fuzz build-mpi test-mpi bench-mpi python test-python bench-python docs install
 
 #: make test        build and run the tests
 test: | $(filter deps,$(MAKECMDGOALS))
@@ -128,6 +128,10 @@ python: | python-deps
 test-python: python
 	ctest --preset python
 	python/tests/install $(PYTHON)
+
+#: make bench-python  how much of a run in Python is not spent in a batch log-likelihood in NumPy
+bench-python: python
+	PYTHONPATH=build/python/package $(PYTHON) bench/python_overhead.py
 
 # ---------------------------------------------------------------- the libraries elsewhere
 

@@ -36,15 +36,36 @@ CLI::Validator check_of(const tmcmc::OptionText& option) {
       option.expected);
 }
 
-void set_sampler_options(tmcmc::Options& options, const GivenOption& given, const OptionPlace& place) {
-  const auto refuse = [&](std::string_view name, std::string_view value, const std::string& expected) {
-    throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), value), "", expected);
-  };
+namespace {
+
+[[noreturn]] void refuse(const OptionPlace& place, std::string_view name, std::string_view value,
+                         const std::string& expected) {
+  throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), value), "", expected);
+}
+
+/// Calls, and names an option of the sampler that is refused by its place.
+template <class Call>
+void naming_options(const OptionPlace& place, Call call) {
   try {
+    call();
+  } catch (const errors::InvalidValue& invalid) {
+    constexpr std::string_view of_options = "options.";
+    if (!invalid.field().starts_with(of_options)) {
+      throw;
+    }
+    refuse(place, std::string_view(invalid.field()).substr(of_options.size()), invalid.value(),
+           invalid.expected());
+  }
+}
+
+}  // namespace
+
+void set_sampler_options(tmcmc::Options& options, const GivenOption& given, const OptionPlace& place) {
+  naming_options(place, [&] {
     for (const tmcmc::OptionText& option : tmcmc::option_table()) {
       const auto value = given(option.name);
       if (value && !tmcmc::option_value(options, option.name)) {  // it would change nothing: a mistake
-        refuse(option.name, *value,
+        refuse(place, option.name, *value,
                fmt::format("only with {}{}{}", option_of(option.needs_option),
                            option.needs_value.empty() ? "" : " ", option.needs_value));
       }
@@ -53,13 +74,7 @@ void set_sampler_options(tmcmc::Options& options, const GivenOption& given, cons
       }
     }
     options.validate();
-  } catch (const errors::InvalidValue& invalid) {
-    constexpr std::string_view of_options = "options.";
-    if (!invalid.field().starts_with(of_options)) {
-      throw;
-    }
-    refuse(std::string_view(invalid.field()).substr(of_options.size()), invalid.value(), invalid.expected());
-  }
+  });
 }
 
 void SamplerOptions::add_to(CLI::App& app) {
@@ -103,7 +118,9 @@ void SamplerOptions::apply(replication::Reading& reading) const {
   tmcmc::Options& options = reading.sampler;
   if (sampler == "recommended") {
     const auto evaluations = given("evaluation_budget");
-    options = tmcmc::recommended_options(evaluations ? std::stol(*evaluations) : recommended_evaluations);
+    naming_options(option_of, [&] {
+      options = tmcmc::recommended_options(evaluations ? std::stol(*evaluations) : recommended_evaluations);
+    });
   }
   options.diagnose = diagnose;
   set_sampler_options(

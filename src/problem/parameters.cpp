@@ -18,7 +18,6 @@ namespace problem {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_number = 1e100;  // its square is a double
 const std::string of_parameters = "parameter", of_normal_scores = "normal_score";
 
@@ -84,10 +83,11 @@ Stated stated(const File& file, const std::string& name, const Node& node,
   std::vector<std::string> keys;
   std::transform(arguments.begin(), arguments.end(), std::back_inserter(keys),
                  [](const auto& a) { return a.first; });
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
   for (const char* bound : {"lower", "upper"}) {
     if (is_cut && std::find(keys.begin(), keys.end(), bound) == keys.end()) {
       keys.emplace_back(bound);
-      arguments.emplace_back(bound, *bound == 'l' ? -infinity : infinity);
+      arguments.emplace_back(bound, *bound == 'l' ? -unbounded : unbounded);
     }
   }
   const tmcmc::Distribution* form = find_form(distribution, keys);

@@ -34,7 +34,7 @@ tmcmc::Options options_of(const BenchmarkProblem& problem, BenchmarkSampler samp
   } else {
     options = tmcmc::recommended_moves(evaluations);
   }
-  if (sampler == BenchmarkSampler::independent_draws) {
+  if (sampler == BenchmarkSampler::recommended) {
     options.finish = tmcmc::IndependentDraws{};
   }
   options.infeasible_level = problem.infeasible_level;
@@ -66,10 +66,10 @@ const char* describe(BenchmarkSampler sampler) {
   switch (sampler) {
     case BenchmarkSampler::published:
       return "published";
+    case BenchmarkSampler::better_moves:
+      return "better moves";
     case BenchmarkSampler::recommended:
       return "recommended";
-    case BenchmarkSampler::independent_draws:
-      return "independent draws";
   }
   return "";
 }
@@ -103,9 +103,9 @@ BenchmarkScore score(const std::vector<BenchmarkRun>& runs) {
   const auto count = static_cast<double>(runs.size());
   double finished = 0.0;
   for (const BenchmarkRun& run : runs) {
-    s.warned += run.warned ? 1.0 / count : 0.0;
+    s.warned += run.warned ? 1.0 : 0.0;
     if (!run.finished) {
-      s.unfinished += 1.0 / count;
+      s.unfinished += 1.0;
       continue;
     }
     finished += 1.0;
@@ -119,6 +119,8 @@ BenchmarkScore score(const std::vector<BenchmarkRun>& runs) {
     s.effective_draws += run.effective_draws;
     s.mode_masses_found += run.worst_mode_mass <= 0.05 ? 1.0 : 0.0;
   }
+  s.warned /= count;
+  s.unfinished /= count;
   s.rms_error = std::sqrt(s.rms_error / finished);
   s.bias /= finished;
   s.rms_z = std::sqrt(s.rms_z / finished);

@@ -10,8 +10,8 @@ namespace replication {
 /// The samplers that the benchmark compares, each at the same number of evaluations.
 enum class BenchmarkSampler {
   published,  ///< the paper's, N_eff = N/2 and N = evaluations / 31: 31 000 evaluations are ten of its stages
-  recommended,       ///< tmcmc::recommended_moves(): TMCMC with better moves
-  independent_draws  ///< found by TMCMC, measured by independent draws
+  better_moves,  ///< tmcmc::recommended_moves()
+  recommended    ///< tmcmc::recommended_options(): measured by independent draws
 };
 
 /// Name as the tables have it.

@@ -21,7 +21,7 @@ double weight_of(std::span<const double> weights, std::size_t i) {
 }
 
 /// Sum of the weights, which it checks.
-double total_of(std::span<const double> values, std::span<const double> weights) {
+double total_weight(std::span<const double> values, std::span<const double> weights) {
   require(!values.empty(), "values", 0.0, "at least one value");
   require(weights.empty() || weights.size() == values.size(), "weights", static_cast<double>(weights.size()),
           "one weight for each value");
@@ -61,7 +61,7 @@ std::vector<std::size_t> order_of(std::span<const double> values) {
 }  // namespace
 
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double p) {
-  const double wanted = p * total_of(values, weights);
+  const double wanted = p * total_weight(values, weights);
   double below = 0.0;
   double last = values[0];
   for (const std::size_t i : order_of(values)) {
@@ -92,7 +92,7 @@ Range panel_range(std::span<const double> values, std::span<const double> weight
 std::vector<double> marginal_density(std::span<const double> values, std::span<const double> weights,
                                      const Range& range, long bins) {
   require_grid(range, bins);
-  const double mass = total_of(values, weights) * (range.high - range.low) / static_cast<double>(bins);
+  const double mass = total_weight(values, weights) * (range.high - range.low) / static_cast<double>(bins);
   std::vector<double> density(static_cast<std::size_t>(bins), 0.0);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const long bin = bin_of(values[i], range, bins);
@@ -109,7 +109,7 @@ PairDensity pair_density(std::span<const double> x, std::span<const double> y,
   require_grid(x_range, bins);
   require_grid(y_range, bins);
   require(x.size() == y.size(), "y", static_cast<double>(y.size()), "as many values as x has");
-  const double total = total_of(x, weights);
+  const double total = total_weight(x, weights);
   std::vector<double> mass(static_cast<std::size_t>(bins * bins), 0.0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const long column = bin_of(x[i], x_range, bins);

@@ -129,7 +129,8 @@ void visit_options(AnyOptions& options, Visit&& visit) {
 /// The options that we recommend: the posterior is measured by IndependentDraws, so that the samples
 /// are weighted (Result::weights). Of 39 problems at 3000, 10 000 and 31 000 evaluations
 /// (experiments/benchmark_problems) they came closer to the log-evidence than recommended_moves() on
-/// 34, 37 and 39. Below 3000 evaluations, where that has not been measured, they are
+/// 38, 38 and 39 (the losses: five narrow modes, with a warning), and than the paper's setting on
+/// 38, 39 and 39. Below 3000 evaluations, where that has not been measured, they are
 /// recommended_moves(); these also take over where the searches fail.
 /// \param evaluations  budget of log-likelihoods, used up; at least 500 and 26 a chain
 /// \param chains       of the moves that take over

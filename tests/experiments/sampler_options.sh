@@ -40,8 +40,9 @@ check "and without independent draws" test "$(cmp -s recommended.csv parts.csv; 
 $recommended --output parts.csv --samples 1000 --chains 10 --move waste-free --resampling systematic \
   --scale-rule dimension --coordinates unbounded --random-subsets yes --independent-fraction 0.5 --boundary reject
 check "the recommended sampler part by part" cmp -s recommended.csv parts.csv
-$recommended --output parts.csv --random-subsets no
-check "without one of its parts" test "$(cmp -s recommended.csv parts.csv; echo $?)" = 1
+$recommended --output none.csv --finish none
+$recommended --output parts.csv --finish none --random-subsets no
+check "without one of the parts of its moves" test "$(cmp -s none.csv parts.csv; echo $?)" = 1
 $study --sampler recommended --output default.csv --runs-output runs.csv
 check "31000 evaluations unless told" awk -F, 'NR > 1 && ($5 > 31000 || $5 < 30900) {bad=1} END {exit bad || NR < 5}' runs.csv
 

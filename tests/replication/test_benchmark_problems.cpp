@@ -88,7 +88,7 @@ TEST_CASE("Each sampler runs on a problem at its evaluations, the same for any n
   const auto problems = closed_form_problems();
   const auto& p = named(problems, "Gaussian, 2-D");
   for (const auto sampler :
-       {BenchmarkSampler::published, BenchmarkSampler::recommended, BenchmarkSampler::independent_draws}) {
+       {BenchmarkSampler::published, BenchmarkSampler::better_moves, BenchmarkSampler::recommended}) {
     const auto one = benchmark_runs(p, sampler, 3000, 0, {.runs = 3, .threads = 1});
     const auto two = benchmark_runs(p, sampler, 3000, 0, {.runs = 3, .threads = 2});
     for (std::size_t i = 0; i < one.size(); ++i) {

@@ -46,6 +46,7 @@ Run run_with(std::initializer_list<std::initializer_list<double>> rows, std::siz
     }
     ++i;
   }
+  run.result.weights.setOnes(run.result.final.points.rows());
   run.result.stages.resize(stages);
   return run;
 }
