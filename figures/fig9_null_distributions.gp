@@ -97,11 +97,9 @@ set grid xtics ytics
 set xlabel 'Area under TMCMC (N)' offset 0, 0.3
 set ylabel 'Area under TMCMC-II (N)' offset 0.6, 0
 set label 1 '(c)' at graph 0.90, 0.05 font 'Nimbus Sans:Bold,8.5' front
-stats marks using (own(1, 'friction_force_n', 'printed')) nooutput name 'first'
-stats marks using (own(2, 'friction_force_n', 'printed')) nooutput name 'second'
-set label 2 'printed' at first_mean, second_mean offset 0.1, 1.0 center font ',7.5' front
 set arrow 1 from 0.065, 0.065 to 0.30, 0.30 nohead back lc rgb grey lw 0.6
 plot pairs using 'first':'second' with points pt 7 ps 0.18 lc rgb '#88000000', \
-     '+' using (first_mean):(second_mean) every ::0::0 with points pt 5 ps 1.0 lc rgb 'white', \
-     '+' using (first_mean):(second_mean) every ::0::0 with points pt 4 ps 0.9 lw 1.4 lc rgb 'black'
+     marks using (own(1, 'friction_force_n', 'printed')):(0.065):(0):(0.235) with vectors nohead lc rgb 'black' lw 0.9 dt (5, 3), \
+     marks using (0.065):(own(2, 'friction_force_n', 'printed')):(0.235):(0) with vectors nohead lc rgb 'black' lw 0.9 dt (5, 3), \
+     marks using (own(1, 'friction_force_n', 'printed')):(0.285):('printed') with labels left offset 0.4, 0 font ',7.5'
 unset multiplot
