@@ -34,7 +34,7 @@ set arrow 1 from budget, graph 0 to budget, graph 1 nohead back lc rgb grey dt (
 unset key
 set multiplot
 do for [panel = 1:3] {
-  set label 1 sprintf('(%s)', 'abc'[panel:panel]) at graph 0.012, 0.92 font 'Nimbus Sans:Bold,8.5' front
+  set label 1 sprintf('(%s)', 'abc'[panel:panel]) at graph 0.958, 0.90 font 'Nimbus Sans:Bold,8.5' front
   set tmargin at screen 0.985 - (panel - 1) * 0.315
   set bmargin at screen 0.715 - (panel - 1) * 0.315
   if (panel < 3) { set format x ''; unset xlabel } else { set format x '%g'; set xlabel 'Likelihood evaluations of a run' offset 0, 0.3 }
