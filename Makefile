@@ -137,17 +137,16 @@ $(SENSITIVITY) &: $(TABLE1) $(PRIOR)
 	  --pbox-output $(GEN)/prior_sensitivity_pbox.csv
 
 # Printed beside ours.
-COMPARED := $(GEN)/replicated_study.csv $(GEN)/table1_observations.csv $(GEN)/table3_pbox_area.csv $(GEN)/table4_iteration_counts.csv
-COMPARE := $(BIN)/compare_published --published $(PUB) --replicated $(GEN)/replicated_study.csv \
-  --table1 $(GEN)/table1_observations.csv --table3 $(GEN)/table3_pbox_area.csv --table4 $(GEN)/table4_iteration_counts.csv
-COMPARISON := $(GEN)/compare_published.csv $(GEN)/compare_published.md
-$(COMPARISON) &: $(COMPARED) $(PRINTED)
-	$(STEP) "$(COMPARISON)" $(COMPARE) --quiet --output $(GEN)/compare_published.csv \
-	  --markdown-output $(GEN)/compare_published.md
+COMPARISON := $(addprefix $(GEN)/compare_published,.csv .md .txt)
+$(COMPARISON) &: $(GEN)/replicated_study.csv $(GEN)/table1_observations.csv $(GEN)/table3_pbox_area.csv $(GEN)/table4_iteration_counts.csv \
+  $(PRINTED)
+	$(STEP) "$(COMPARISON)" $(BIN)/compare_published --published $(PUB) --replicated $(GEN)/replicated_study.csv \
+	  --table1 $(GEN)/table1_observations.csv --table3 $(GEN)/table3_pbox_area.csv --table4 $(GEN)/table4_iteration_counts.csv \
+	  --quiet --output $(GEN)/compare_published.csv --markdown-output $(GEN)/compare_published.md \
+	  --text-output $(GEN)/compare_published.txt
 
-compare: $(COMPARED) $(PRINTED)
-	@tools/build compare_published >&2
-	@$(COMPARE)
+compare: $(GEN)/compare_published.txt
+	@cat $<
 
 RESULTS := $(AUDIT) $(GEN)/fig2_phase_angle.csv $(VALIDATION) $(GEN)/least_squares_baseline.csv $(STUDY) $(OF_SAMPLES) \
   $(GEN)/table4_iteration_counts.csv $(GEN)/fig5_tempering.csv $(GEN)/fig4_areas_and_iterations.csv $(OF_TABLE1) $(EXACT) \

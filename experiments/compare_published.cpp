@@ -33,19 +33,27 @@ std::string place_of(const Cell& cell) {
   return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
 }
 
-void report_and_write(const Report& report, const std::vector<Cell>& cells, OptionalCsv& csv) {
+/// The report: each table with a row for each cell.
+std::string text_of(const std::vector<Cell>& cells) {
+  std::string text;
   std::string table;
   for (const Cell& cell : cells) {
     if (cell.table != table) {
       table = cell.table;
-      report("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column", "printed", "ours",
-             "difference", "among replicated studies");
+      text += fmt::format("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column",
+                          "printed", "ours", "difference", "among replicated studies");
     }
-    report("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column, cell.printed,
-           cell.ours, replication::difference(cell), place_of(cell));
-    csv.row(cell.table, cell.row, cell.column, cell.printed, cell.ours, replication::difference(cell),
-            cell.median, cell.interval.low, cell.interval.high, cell.printed_percentile, cell.our_percentile,
-            cell.p.value, cell.p.standard_error, cell.verdict);
+    text += fmt::format("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column,
+                        cell.printed, cell.ours, replication::difference(cell), place_of(cell));
+  }
+  return text;
+}
+
+/// Opens the file and writes the text, unless the path is empty.
+void write_text(std::optional<io::OutputFile>& file, const std::string& path, const std::string& text) {
+  if (!path.empty()) {
+    file.emplace(path);
+    file->write(text);
   }
 }
 
@@ -67,6 +75,8 @@ int main(int argc, char** argv) {
              "our_percentile, p, p_error, verdict");
   std::string markdown_output;
   add_output(app, "--markdown-output", markdown_output, "Tables 3 and 4 as a Markdown table");
+  std::string text_output;
+  add_output(app, "--text-output", text_output, "The report that is printed");
   app.add_option("--published", printed_directory, "Directory of the tables as printed")->type_name("DIR");
   add_input(app, "--table1", table1, "Generated observations");
   add_input(app, "--table3", table3, "Our p-box areas");
@@ -116,12 +126,17 @@ int main(int argc, char** argv) {
     }
     auto csv = open_csv(output, {"table", "row", "column", "printed", "ours", "difference", "median", "low",
                                  "high", "printed_percentile", "our_percentile", "p", "p_error", "verdict"});
-    std::optional<io::OutputFile> markdown_file;
-    if (!markdown_output.empty()) {
-      markdown_file.emplace(markdown_output);
-      markdown_file->write(replication::comparison_markdown(cells));
+    for (const Cell& cell : cells) {
+      csv.row(cell.table, cell.row, cell.column, cell.printed, cell.ours, replication::difference(cell),
+              cell.median, cell.interval.low, cell.interval.high, cell.printed_percentile,
+              cell.our_percentile, cell.p.value, cell.p.standard_error, cell.verdict);
     }
-    report_and_write(report, cells, csv);
-    io::commit_all(csv, markdown_file);
+    std::optional<io::OutputFile> markdown_file;
+    write_text(markdown_file, markdown_output, replication::comparison_markdown(cells));
+    const std::string text = text_of(cells);
+    std::optional<io::OutputFile> report_file;
+    write_text(report_file, text_output, text);
+    report("{}", text);
+    io::commit_all(csv, markdown_file, report_file);
   });
 }
