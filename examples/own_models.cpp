@@ -237,7 +237,19 @@ Model other_program(const ProblemOptions& options, const Listeners& listeners) {
   return result;
 }
 
+/// The models in C++ by the names that built_in takes. One of your own is a function like these, and a row here.
+const std::vector<std::pair<std::string, Model (*)(const ProblemOptions&)>> built_in_models = {
+    {"shear_frame", shear_frame}, {"friction", friction_rig}};
+
 }  // namespace
+
+std::vector<std::string> built_in_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, make] : built_in_models) {
+    names.push_back(name);
+  }
+  return names;
+}
 
 Model make_model(const ProblemOptions& options, const Listeners& listeners) {
   const bool is_command = !options.command.empty(), is_worker = !options.worker.empty();
@@ -251,7 +263,9 @@ Model make_model(const ProblemOptions& options, const Listeners& listeners) {
   if (options.is_other_program()) {
     return other_program(options, listeners);
   }
-  Model model = options.built_in == "friction" ? friction_rig(options) : shear_frame(options);
+  const auto built_in = std::find_if(built_in_models.begin(), built_in_models.end(),
+                                     [&](const auto& row) { return row.first == options.built_in; });
+  Model model = built_in->second(options);
   model.log_likelihood = counted(std::move(model.log_likelihood), listeners);
   return model;
 }

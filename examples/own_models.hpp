@@ -38,6 +38,9 @@ struct Listeners {
   std::function<void(tmcmc::Index rows)> evaluated;
 };
 
+/// Names of the models in C++, the default first.
+[[nodiscard]] std::vector<std::string> built_in_names();
+
 /// The model of the options; another program is called several times at a time.
 /// \throws std::invalid_argument for more than one model, or a server without a name of a model;
 ///         io::InputError naming file, line, field and value; models::ModelError if the program

@@ -10,6 +10,7 @@
 
 #include "errors/invalid_value.hpp"
 #include "inputs.hpp"
+#include "own_models.hpp"
 
 namespace examples {
 
@@ -19,7 +20,6 @@ using experiments::count;
 using experiments::option_of;
 
 constexpr long default_chains = 100;
-const std::vector<std::string> built_in_models = {"shear_frame", "friction"};
 /// Set by keys of their own.
 const std::vector<std::string> no_sampler_options = {"evaluation_budget", "threads", "batch_rows",
                                                      "diagnose"};
@@ -68,8 +68,8 @@ ProblemOptions::ProblemOptions(CLI::App& app) {
 
 void ProblemOptions::add_model(CLI::App& app) {
   const CLI::Validator text = any_text();
-  add(app, "model", "built_in", "--built-in", built_in, CLI::detail::join(built_in_models, "|"),
-      experiments::one_of(built_in_models), "Model in C++");
+  add(app, "model", "built_in", "--built-in", built_in, CLI::detail::join(built_in_names(), "|"),
+      experiments::one_of(built_in_names()), "Model in C++");
   add(app, "model", "driving_force", "--driving-force", driving_force_n, "", experiments::positive(),
       "k Y_b of the model friction, N");
   add(app, "model", "command", "--command", command, "PROGRAM", text,

@@ -76,7 +76,9 @@ int main(int argc, char** argv) {
     std::uint32_t number = 0;
     const auto box = prior_for(inputs, reading);
     static_cast<void>(bounds_of(box, "prior_sensitivity"));
-    for (const auto& [name, prior] : replication::noise_priors(box)) {
+    const auto priors = replication::noise_priors(box);
+    io::Progress progress("prior_sensitivity", priors.size() * arms.size(), !report.quiet());
+    for (const auto& [name, prior] : priors) {
       const auto exact = exact_posterior_for(inputs, likelihood, prior);
       std::array<double, friction::parameter_count> floors{};
       for (std::size_t p = 0; p < floors.size(); ++p) {
@@ -85,6 +87,7 @@ int main(int argc, char** argv) {
       }
       for (const auto& arm : arms) {
         const auto runs = replication::run_arm({likelihood, prior}, arm, number++, options);
+        progress.advance();
         const auto areas = replication::pbox_areas(runs, options.threads);
         const auto log_evidence = [](const auto& run) { return run.result.evidence.log_evidence; };
         const double truth = exact.log_evidence();

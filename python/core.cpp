@@ -21,6 +21,7 @@
 #include "pbox/pbox.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/distributions.hpp"
+#include "tmcmc/modes.hpp"
 #include "tmcmc/option_table.hpp"
 #include "tmcmc/sampler.hpp"
 
@@ -67,6 +68,17 @@ py::dict stages_of(const tmcmc::Result& result) {
   return stages;
 }
 
+/// The arguments of tmcmc.Mode, a dict a mode.
+py::list modes_of(const tmcmc::Modes& found) {
+  py::list modes;
+  for (const auto& mode : found.modes) {
+    modes.append(py::dict("weight"_a = mode.weight, "standard_error"_a = mode.standard_error,
+                          "samples"_a = mode.samples, "mean"_a = mode.mean,
+                          "sd"_a = mode.standard_deviation));
+  }
+  return modes;
+}
+
 using Marginals =
     std::vector<std::tuple<std::string, std::string, std::map<std::string, double, std::less<>>>>;
 
@@ -109,19 +121,23 @@ py::dict run(const py::function& log_likelihood, const Marginals& marginals, lon
   const tmcmc::Options options = options_of(evaluations, chains, given);
   const tmcmc::Problem problem{batch_of(log_likelihood), prior_of(marginals)};
   tmcmc::Result result;
+  tmcmc::Modes found;
   {
     const py::gil_scoped_release unlock;
     result = tmcmc::run(problem, options, {.seed = seed, .run = run_number});
+    found = tmcmc::find_modes(result);
   }
   std::vector<std::string> warnings;
   for (const auto& warning : result.diagnostics.warnings) {
     warnings.push_back(warning.message);
   }
+  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
   return py::dict("samples"_a = result.final.points, "log_likelihood"_a = result.final.log_likelihood,
                   "weights"_a = Eigen::VectorXd(result.weights / result.weights.sum()),
                   "log_evidence"_a = result.evidence.log_evidence,
                   "log_evidence_error"_a = result.evidence.standard_error,
                   "effective_sample_size"_a = result.diagnostics.effective_sample_size,
+                  "modes"_a = modes_of(found), "mode_of_sample"_a = py::array(py::cast(found.of_sample)),
                   "stages"_a = stages_of(result), "warnings"_a = warnings, "beta"_a = result.final.beta,
                   "evaluations"_a = result.final.evaluations, "stop"_a = tmcmc::describe(result.stop));
 }

@@ -222,6 +222,25 @@ def test_priors_by_name_position_and_scipy_are_the_same():
             tmcmc.sample(gaussian, {"a": refused})
 
 
+def test_separate_modes_have_weights_and_means():
+    """Two narrow peaks, normalised, with the shares 0.3 and 0.7."""
+
+    def two_peaks(points):
+        squares = [np.sum(((points - centre) / 0.05) ** 2, axis=1) for centre in ([-2.0, 0.0], [2.0, 1.0])]
+        return np.logaddexp(math.log(0.3) - 0.5 * squares[0], math.log(0.7) - 0.5 * squares[1])
+
+    run = tmcmc.sample(two_peaks, BOX).runs[0]
+    heavy, light = run.modes
+    assert abs(heavy.weight - 0.7) < 4.0 * heavy.standard_error < 0.05
+    assert heavy.weight + light.weight == pytest.approx(1.0)
+    assert heavy.mean == pytest.approx([2.0, 1.0], abs=0.01) and light.mean == pytest.approx([-2.0, 0.0], abs=0.01)
+    assert heavy.sd == pytest.approx([0.05, 0.05], rel=0.1)
+    elsewhere = (run.samples[:, 0] > 0.0) != (run.mode_of_sample == 0)
+    assert np.sum(run.weights[elsewhere]) < 1e-9  # draws between the peaks
+    assert heavy.samples == np.sum(run.mode_of_sample == 0)
+    assert [len(modes) for modes in tmcmc.sample(gaussian, BOX, evaluations=SMALL, runs=2).modes] == [1, 1]
+
+
 def test_a_budget_that_does_not_suffice_is_warned_of():
     narrow = lambda x: gaussian(x / 1e-6)
     with pytest.warns(tmcmc.SamplingWarning):

@@ -16,11 +16,12 @@ this library accompanies.
 from . import friction, pbox
 from ._core import SamplingError, __version__
 from ._prior import distributions
-from ._result import Result, Run, Summary
+from ._result import Mode, Result, Run, Summary
 from ._sampling import LogLikelihoodError, SamplingWarning, options, sample
 
 __all__ = [
     "LogLikelihoodError",
+    "Mode",
     "Result",
     "Run",
     "SamplingError",

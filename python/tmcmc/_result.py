@@ -16,6 +16,17 @@ QUANTILES = (0.025, 0.25, 0.5, 0.75, 0.975)
 
 
 @dataclass(frozen=True)
+class Mode:
+    """A separate mode of a posterior: a part with next to no samples between it and the others."""
+
+    weight: float  #: posterior probability
+    standard_error: float  #: of the weight
+    samples: int  #: in it
+    mean: Array  #: of its samples, d
+    sd: Array  #: of its samples, d
+
+
+@dataclass(frozen=True)
 class Run:
     """One run of the sampler."""
 
@@ -25,6 +36,8 @@ class Run:
     log_evidence: float  #: with the prior normalised
     log_evidence_error: float  #: standard error, from this run alone
     effective_sample_size: Array  #: of each parameter, d
+    modes: list[Mode]  #: at least one, the heaviest first; a mode that the run has missed is not among them
+    mode_of_sample: NDArray[np.intp]  #: n, the place of each sample's mode in modes
     stages: dict[str, Any]  #: an array a quantity, with an entry a stage
     warnings: list[str]  #: empty for a run that looks healthy
     beta: float  #: 1 unless the budget did not suffice: then the samples are not those of the posterior
@@ -95,6 +108,11 @@ class Result:
         if count == 1:
             return within
         return max(within, float(np.std([run.log_evidence for run in self.runs], ddof=1)) / count**0.5)
+
+    @property
+    def modes(self) -> list[list[Mode]]:
+        """The separate modes of each run: one for a posterior of one piece, whatever its shape."""
+        return [run.modes for run in self.runs]
 
     @property
     def stages(self) -> list[dict[str, Any]]:

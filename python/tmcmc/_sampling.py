@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._prior import marginals_of
-from ._result import Result, Run
+from ._result import Mode, Result, Run
 
 LogLikelihood = Callable[[NDArray[np.float64]], ArrayLike]
 
@@ -72,13 +72,17 @@ def sample(
     if runs < 1:
         raise ValueError(f"runs = {runs}: expected at least 1")
     batch = _Batch(log_likelihood, names)
-    results = [Run(**_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
+    results = [_run(_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
     result = Result(names, results, seed)
     for number, run in enumerate(results):
         for message in run.warnings:
             of_run = f" of run {number}" if runs > 1 else ""
             warnings.warn(f"{message}{of_run}", SamplingWarning, stacklevel=2)
     return result
+
+
+def _run(fields: dict[str, Any]) -> Run:
+    return Run(**{**fields, "modes": [Mode(**mode) for mode in fields["modes"]]})
 
 
 def options() -> dict[str, str]:

@@ -1,6 +1,7 @@
 #include "models/json_connection.hpp"
 
 #include <httplib.h>
+#include <netinet/tcp.h>
 
 #undef _res  // of <resolv.h>, a name that Eigen uses
 
@@ -13,6 +14,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "errors/invalid_value.hpp"
 #include "io/csv.hpp"
@@ -28,20 +30,39 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr double longest_timeout_seconds = 2e6;  // that httplib's milliseconds hold
 constexpr std::chrono::seconds connection_timeout(30);
+constexpr std::chrono::milliseconds longest_idle(100);
 constexpr std::size_t longest_body = 200;
 
-/// The JSON of a text. Python's json module writes infinities and NaN, which are no JSON, as words; they become texts.
-json parse(std::string text) {
-  json value = json::parse(text, nullptr, false);
-  if (value.is_discarded()) {
-    for (const std::string word : {"-Infinity", "NaN"}) {
-      for (auto at = text.find(word); at != text.npos; at = text.find(word, at + word.size() + 2)) {
-        text.replace(at, word.size(), '"' + word + '"');
-      }
-    }
-    value = json::parse(text, nullptr, false);
+/// The place after a string that begins at `at` with its quotation mark.
+std::size_t after_string(const std::string& text, std::size_t at) {
+  for (++at; at < text.size() && text[at] != '"'; ++at) {
+    at += text[at] == '\\' ? 1 : 0;
   }
-  return value;
+  return std::min(at + 1, text.size());
+}
+
+/// The JSON of a text. Python writes infinities and NaN, which are no JSON, as words (its json module -Infinity, its lists -inf);
+/// they become texts.
+json parse(const std::string& text) {
+  json value = json::parse(text, nullptr, false);
+  if (!value.is_discarded()) {
+    return value;
+  }
+  static const std::pair<std::string, std::string> words[] = {
+      {"-Infinity", "\"-Infinity\""}, {"-inf", "\"-Infinity\""}, {"Infinity", "\"Infinity\""},
+      {"inf", "\"Infinity\""},        {"NaN", "\"NaN\""},        {"nan", "\"NaN\""}};
+  std::string mended;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto word = std::find_if(std::begin(words), std::end(words), [&](const auto& w) {
+      return text.compare(at, w.first.size(), w.first) == 0;
+    });
+    const std::size_t next = text[at] == '"'           ? after_string(text, at)
+                             : word != std::end(words) ? at + word->first.size()
+                                                       : at + 1;
+    mended += word != std::end(words) ? word->second : text.substr(at, next - at);
+    at = next;
+  }
+  return json::parse(mended, nullptr, false);
 }
 
 std::string text_of(const json& object, const char* key) {
@@ -72,10 +93,12 @@ void wait_interruptibly(Seconds time) {
 
 }  // namespace
 
-/// The client, and a thread that breaks off what it waits for at an interrupt.
+/// The client, and a thread that breaks off what it waits for at an interrupt, and closes a connection that nobody uses.
 struct JsonConnection::Http {
   httplib::Client client;
   std::string path;
+  std::mutex in_use;
+  Clock::time_point last_use = Clock::now();
   std::jthread watcher;
 
   Http(const std::string& host, std::string path_of_url) : client(host), path(std::move(path_of_url)) {
@@ -85,11 +108,20 @@ struct JsonConnection::Http {
       std::unique_lock lock(mutex);
       while (!condition.wait_for(lock, stop, std::chrono::milliseconds(50),
                                  [&] { return stop.stop_requested(); })) {
-        if (io::interrupt_signal() != 0) {
+        const std::unique_lock idle(in_use, std::try_to_lock);
+        if (io::interrupt_signal() != 0 || (idle && Clock::now() - last_use > longest_idle)) {
           client.stop();
         }
       }
     });
+  }
+
+  template <class Send>
+  httplib::Result use(const Send& send) {
+    const std::lock_guard lock(in_use);
+    httplib::Result result = send();
+    last_use = Clock::now();
+    return result;
   }
 };
 
@@ -113,6 +145,7 @@ JsonConnection::JsonConnection(const ServerOptions& options) : options_(options)
       Seconds(std::min(seconds, longest_timeout_seconds))));
   http_->client.set_connection_timeout(connection_timeout);
   http_->client.set_tcp_nodelay(true);
+  http_->client.set_keep_alive(true);
 }
 
 JsonConnection::~JsonConnection() = default;
@@ -123,7 +156,7 @@ json JsonConnection::request(const Send& send) {
   for (int attempt = 0;; ++attempt, wait *= 2.0, ++repeated_) {
     io::stop_if_interrupted();
     const auto start = Clock::now();
-    const httplib::Result result = send();
+    const httplib::Result result = http_->use(send);
     io::stop_if_interrupted();
     if (!result && result.error() == httplib::Error::Read && options_.timeout_seconds > 0.0 &&
         Seconds(Clock::now() - start).count() >= options_.timeout_seconds) {
@@ -161,7 +194,17 @@ json JsonConnection::get(const std::string& path) {
 
 json JsonConnection::post(const std::string& path, const json& body) {
   const std::string text = body.dump();
-  return request([&] { return http_->client.Post(http_->path + path, text, "application/json"); });
+  const auto send_body = [&](std::size_t, std::size_t, httplib::DataSink& sink) {
+    sink.write(text.data(), text.size());
+    // the header of the answer is acknowledged at once: servers without TCP_NODELAY send its body only then
+    const int yes = 1;
+    setsockopt(http_->client.socket(), IPPROTO_TCP, TCP_QUICKACK, &yes, sizeof yes);
+    return true;
+  };
+  return request([&] {
+    return http_->client.Post(http_->path + path, httplib::Headers{}, text.size(), send_body,
+                              "application/json");
+  });
 }
 
 }  // namespace models

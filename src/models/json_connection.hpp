@@ -15,9 +15,9 @@ struct ServerOptions {
   int retries = 5;               ///< of a request whose connection was lost
 };
 
-/// The way to the server, for one thread at a time. Each request has a TCP connection of its own, so that a load balancer can send
-/// each to another server; and on one that is kept open, servers that write header and body apart are 40 ms late (Nagle's algorithm
-/// waiting for the delayed acknowledgement).
+/// The way to the server, for one thread at a time. Its TCP connection is kept for the next request: servers with a short queue of
+/// new connections (cpp-httplib's has five places) let some of them wait for a second. After 0.1 s without a request it is closed,
+/// since a server may have a thread for each connection.
 ///
 /// A request is repeated, after 0.1 s and then twice as long each time, if the connection cannot be made or is lost before the
 /// answer, and at the status 502, 503 or 504 of a load balancer without a server. The answer of a model is final, its error too.

@@ -70,6 +70,11 @@ class TestServer {
     post("/ModelInfo", give("support", support));
     post("/InputSizes", give("inputSizes", input_sizes));
     post("/OutputSizes", give("outputSizes", output_sizes));
+    server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response&) {
+      const std::lock_guard lock(mutex_);
+      ports_.insert(request.remote_port);
+      return httplib::Server::HandlerResponse::Unhandled;
+    });
     post("/Evaluate", [this](const json& body, httplib::Response& r) {
       ++requests;
       evaluate(body, r);
@@ -93,6 +98,10 @@ class TestServer {
     while (!server_.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   [[nodiscard]] int port() const { return port_; }
+  [[nodiscard]] std::size_t connections() {
+    const std::lock_guard lock(mutex_);
+    return ports_.size();
+  }
 
   [[nodiscard]] models::UmBridgeOptions options() const {
     models::UmBridgeOptions options;
@@ -106,6 +115,8 @@ class TestServer {
   httplib::Server server_;
   std::thread thread_;
   int port_ = 0;
+  std::mutex mutex_;
+  std::set<int> ports_;  // of the client, one a connection
 };
 
 const Eigen::MatrixXd points =
@@ -180,8 +191,11 @@ TEST_CASE("minus infinity is a value as Python writes it; other words are no num
   std::string body = R"({"output": [[-Infinity]]})";
   server.evaluate = [&](const json&, httplib::Response& r) { answer(r, body); };
   const UmBridge model(server.options());
-  CHECK(values_of(model).maxCoeff() == -std::numeric_limits<double>::infinity());
-  for (const std::string word : {"NaN", "null", "true", "\"abc\"", "[1]"}) {
+  for (const std::string word : {"-Infinity", "-inf"}) {  // of json.dumps, and of a list as text
+    body = R"({"output": [[)" + word + R"(]], "note": "inf, \"nan\" and -inf"})";
+    CHECK(values_of(model).maxCoeff() == -std::numeric_limits<double>::infinity());
+  }
+  for (const std::string word : {"NaN", "nan", "inf", "null", "true", "\"abc\"", "[1]"}) {
     body = R"({"output": [[)" + word + "]]}";
     CHECK_THAT(message_of(model), Contains("expected a number or -Infinity") &&
                                       Contains("; point 1 of 3 (a = 0.1, b = 0.2, c = 0.3)"));
@@ -192,6 +206,23 @@ TEST_CASE("minus infinity is a value as Python writes it; other words are no num
     body = R"({"output": [[)" + word + "]]}";
     CHECK_THAT(message_of(model), Contains("; point 1 of 3"));
   }
+}
+
+TEST_CASE("an answer may come in chunks, with whole numbers, white space and any type of content",
+          "[models][um_bridge]") {
+  TestServer server;
+  server.evaluate = [](const json&, httplib::Response& r) {
+    r.set_chunked_content_provider("text/plain", [](std::size_t, httplib::DataSink& sink) {
+      for (const std::string part : {"{\"out", "put\":\r\n [ [", "-3", " ] ] }\n\n"}) {
+        sink.write(part.data(), part.size());
+      }
+      sink.done();
+      return true;
+    });
+  };
+  CHECK(values_of(UmBridge(server.options())) == Eigen::Vector3d::Constant(-3.0));
+  server.info["protocolVersion"] = 1;
+  CHECK_NOTHROW(UmBridge(server.options()));
 }
 
 TEST_CASE("an error of the model is told in its words, names the point and is not tried again",
@@ -323,6 +354,20 @@ TEST_CASE(
   options.server.retries = 1;
   CHECK_THAT(message_of(UmBridge(options)),
              Contains("could not be reached in 2 attempts") && Contains("; point 1 of 3"));
+}
+
+TEST_CASE("a connection is kept for the next point, and closed when no point comes", "[models][um_bridge]") {
+  TestServer server;
+  const UmBridge model(server.options());
+  const Eigen::MatrixXd many = Eigen::MatrixXd::Random(20, 3);
+  Eigen::VectorXd values(20);
+  model(many, values);
+  CHECK(server.connections() <= 12);  // of 24 requests; the server closes each after five
+  const std::size_t before = server.connections();
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  model(many.topRows(1), values.head(1));
+  CHECK(server.connections() == before + 1);
+  CHECK(model.repeated_requests() == 0);
 }
 
 TEST_CASE("a server that is started again is found again", "[models][um_bridge]") {
