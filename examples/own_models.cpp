@@ -34,8 +34,17 @@ tmcmc::Prior prior_of(const ProblemOptions& options, const problem::ParameterRul
              : experiments::read_prior(options.prior, {rules.names, rules.nonnegative, rules.require_name});
 }
 
+/// The file of the measurements, which a problem file has to name.
+const std::string& measurements_file(const ProblemOptions& options) {
+  if (options.file() && !options.is_given("--observations")) {
+    throw io::InputError(fmt::format("{}: no data: expected file, the measurements, in the table [data]",
+                                     io::printable_path(options.file()->path)));
+  }
+  return options.observations;
+}
+
 Model shear_frame(const ProblemOptions& options) {
-  const FrameLikelihood frame(read_frame_observations(options.observations));
+  const FrameLikelihood frame(read_frame_observations(measurements_file(options)));
   const auto& measured = frame.observations();
   std::string description = "shear_frame";
   for (std::size_t i = 0; i < measured.mode.size(); ++i) {
@@ -51,7 +60,7 @@ Model shear_frame(const ProblemOptions& options) {
 }
 
 Model friction_rig(const ProblemOptions& options) {
-  const auto measured = experiments::read_observations(options.observations);
+  const auto measured = experiments::read_observations(measurements_file(options));
   const friction::Physics physics{.driving_force_n = options.driving_force_n};
   std::string description =
       fmt::format("friction, driving force {} N", io::format_number(options.driving_force_n));

@@ -81,10 +81,6 @@ void ProblemOptions::read() {
         fmt::format("{}: no model: expected built_in, command, worker or um_bridge in the table [model]",
                     io::printable_path(path_)));
   }
-  if (!is_other_program() && !is_given("--observations")) {
-    throw io::InputError(fmt::format("{}: no data: expected file, the measurements, in the table [data]",
-                                     io::printable_path(path_)));
-  }
 }
 
 /// Arrays of numbers, and the table of a model's configuration.
