@@ -68,17 +68,6 @@ py::dict stages_of(const tmcmc::Result& result) {
   return stages;
 }
 
-/// The arguments of tmcmc.Mode, a dict a mode.
-py::list modes_of(const tmcmc::Modes& found) {
-  py::list modes;
-  for (const auto& mode : found.modes) {
-    modes.append(py::dict("weight"_a = mode.weight, "standard_error"_a = mode.standard_error,
-                          "samples"_a = mode.samples, "mean"_a = mode.mean,
-                          "sd"_a = mode.standard_deviation));
-  }
-  return modes;
-}
-
 using Marginals =
     std::vector<std::tuple<std::string, std::string, std::map<std::string, double, std::less<>>>>;
 
@@ -121,25 +110,44 @@ py::dict run(const py::function& log_likelihood, const Marginals& marginals, lon
   const tmcmc::Options options = options_of(evaluations, chains, given);
   const tmcmc::Problem problem{batch_of(log_likelihood), prior_of(marginals)};
   tmcmc::Result result;
-  tmcmc::Modes found;
   {
     const py::gil_scoped_release unlock;
     result = tmcmc::run(problem, options, {.seed = seed, .run = run_number});
-    found = tmcmc::find_modes(result);
   }
   std::vector<std::string> warnings;
   for (const auto& warning : result.diagnostics.warnings) {
     warnings.push_back(warning.message);
   }
-  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
   return py::dict("samples"_a = result.final.points, "log_likelihood"_a = result.final.log_likelihood,
                   "weights"_a = Eigen::VectorXd(result.weights / result.weights.sum()),
                   "log_evidence"_a = result.evidence.log_evidence,
                   "log_evidence_error"_a = result.evidence.standard_error,
                   "effective_sample_size"_a = result.diagnostics.effective_sample_size,
-                  "modes"_a = modes_of(found), "mode_of_sample"_a = py::array(py::cast(found.of_sample)),
+                  "chains"_a = result.final.genealogy.chains, "parents"_a = result.final.genealogy.parents,
                   "stages"_a = stages_of(result), "warnings"_a = warnings, "beta"_a = result.final.beta,
                   "evaluations"_a = result.final.evaluations, "stop"_a = tmcmc::describe(result.stop));
+}
+
+/// \param chains, parents  the samples' genealogy
+/// \return the arguments of tmcmc.Mode, a dict a mode; the place of each sample's mode; warnings
+py::tuple find_modes(const Eigen::MatrixXd& samples, const Eigen::VectorXd& weights, tmcmc::Index chains,
+                     const std::vector<std::vector<tmcmc::Index>>& parents) {
+  tmcmc::Result result;
+  result.final.points = samples;
+  result.final.genealogy = {chains, parents};
+  result.weights = weights;
+  tmcmc::Modes found;
+  {
+    const py::gil_scoped_release unlock;
+    found = tmcmc::find_modes(result);
+  }
+  py::list modes;
+  for (const auto& mode : found.modes) {
+    modes.append(py::dict("weight"_a = mode.weight, "standard_error"_a = mode.standard_error,
+                          "samples"_a = mode.samples, "mean"_a = mode.mean,
+                          "sd"_a = mode.standard_deviation));
+  }
+  return py::make_tuple(modes, py::array(py::cast(found.of_sample)), found.warnings);
 }
 
 std::vector<pbox::Ecdf> ecdfs_of(const std::vector<std::vector<double>>& samples) {
@@ -188,6 +196,7 @@ PYBIND11_MODULE(_core, module) {
   });
   module.def("run", &run, "log_likelihood"_a, "marginals"_a, "evaluations"_a, "chains"_a, "seed"_a, "run"_a,
              "options"_a);
+  module.def("find_modes", &find_modes, "samples"_a, "weights"_a, "chains"_a, "parents"_a);
   module.def("options", [] {
     std::vector<std::tuple<std::string, std::string, std::string>> all;
     for (const auto& option : tmcmc::option_table()) {

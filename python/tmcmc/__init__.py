@@ -16,8 +16,8 @@ this library accompanies.
 from . import friction, pbox
 from ._core import SamplingError, __version__
 from ._prior import distributions
-from ._result import Mode, Result, Run, Summary
-from ._sampling import LogLikelihoodError, SamplingWarning, options, sample
+from ._result import Mode, Result, Run, SamplingWarning, Summary
+from ._sampling import LogLikelihoodError, options, sample
 
 __all__ = [
     "LogLikelihoodError",

@@ -22,6 +22,9 @@ def run(
     run: int,
     options: dict[str, str],
 ) -> dict[str, Any]: ...
+def find_modes(
+    samples: NDArray[np.float64], weights: NDArray[np.float64], chains: int, parents: Sequence[Sequence[int]]
+) -> tuple[list[dict[str, Any]], NDArray[np.intp], list[str]]: ...
 def options() -> list[tuple[str, str, str]]: ...
 def envelope(
     samples: Sequence[Sequence[float]],

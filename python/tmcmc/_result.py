@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
+from functools import cached_property
 from os import PathLike
 from typing import Any
 
@@ -13,6 +15,10 @@ from . import _core
 
 Array = NDArray[np.float64]
 QUANTILES = (0.025, 0.25, 0.5, 0.75, 0.975)
+
+
+class SamplingWarning(UserWarning):
+    """A run that should not be believed without a second look."""
 
 
 @dataclass(frozen=True)
@@ -36,13 +42,30 @@ class Run:
     log_evidence: float  #: with the prior normalised
     log_evidence_error: float  #: standard error, from this run alone
     effective_sample_size: Array  #: of each parameter, d
-    modes: list[Mode]  #: at least one, the heaviest first; a mode that the run has missed is not among them
-    mode_of_sample: NDArray[np.intp]  #: n, the place of each sample's mode in modes
     stages: dict[str, Any]  #: an array a quantity, with an entry a stage
     warnings: list[str]  #: empty for a run that looks healthy
     beta: float  #: 1 unless the budget did not suffice: then the samples are not those of the posterior
     evaluations: int  #: log-likelihoods that were computed
     stop: str  #: why the run ended
+    chains: int  #: sample i belongs to chain i modulo this
+    parents: list[list[int]]  #: [t][c]: chain after stage t from which chain c after stage t + 1 started
+
+    @property
+    def modes(self) -> list[Mode]:
+        """The separate modes, at least one, the heaviest first; a mode that the run has missed is not among them."""
+        return self._modes[0]
+
+    @property
+    def mode_of_sample(self) -> NDArray[np.intp]:
+        """The place of each sample's mode in modes, n."""
+        return self._modes[1]
+
+    @cached_property
+    def _modes(self) -> tuple[list[Mode], NDArray[np.intp]]:
+        found, of_sample, messages = _core.find_modes(self.samples, self.weights, self.chains, self.parents)
+        for message in messages:
+            warnings.warn(message, SamplingWarning, stacklevel=4)
+        return [Mode(**mode) for mode in found], of_sample
 
     def _equal_draws(self) -> int:
         if np.ptp(self.weights) == 0.0:

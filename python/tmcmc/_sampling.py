@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._prior import marginals_of
-from ._result import Mode, Result, Run
+from ._result import Result, Run, SamplingWarning
 
 LogLikelihood = Callable[[NDArray[np.float64]], ArrayLike]
 
@@ -25,10 +25,6 @@ class LogLikelihoodError(RuntimeError):
     def __init__(self, message: str, point: dict[str, float]) -> None:
         super().__init__(message)
         self.point = point
-
-
-class SamplingWarning(UserWarning):
-    """A run that should not be believed without a second look."""
 
 
 def sample(
@@ -72,17 +68,13 @@ def sample(
     if runs < 1:
         raise ValueError(f"runs = {runs}: expected at least 1")
     batch = _Batch(log_likelihood, names)
-    results = [_run(_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
+    results = [Run(**_core.run(batch, marginals, evaluations, chains, seed, number, given)) for number in range(runs)]
     result = Result(names, results, seed)
     for number, run in enumerate(results):
         for message in run.warnings:
             of_run = f" of run {number}" if runs > 1 else ""
             warnings.warn(f"{message}{of_run}", SamplingWarning, stacklevel=2)
     return result
-
-
-def _run(fields: dict[str, Any]) -> Run:
-    return Run(**{**fields, "modes": [Mode(**mode) for mode in fields["modes"]]})
 
 
 def options() -> dict[str, str]:
