@@ -101,8 +101,9 @@ script "$rows | head -n 5 >>\"\$2\"";              fails 'wrote 5 log-likelihood
 script "$rows >>\"\$2\"; echo 1 >>\"\$2\"";        fails 'wrote 201 log-likelihoods for 200 points'
 script "$rows | sed 4s/.*/abc/ >>\"\$2\"";         fails "wrote the log-likelihood 'abc': expected a number or -inf; point 4 of 200"
 script 'echo nonsense >"$2"; echo 1 >>"$2"';       fails 'log_likelihood'
-script 'sleep 60 & sleep 60';                      fails 'took more than 2 s and was killed'
-check "nothing it started is left" test -z "$(pgrep -f 'sleep 60' || true)"
+nap="sleep 60.$$"  # of this test alone
+script "$nap & $nap";                              fails 'took more than 2 s and was killed'
+check "nothing it started is left" test -z "$(pgrep -f "$nap" || true)"
 for value in nan inf 1e400 +-5 '""'; do
   script "$rows | sed '4s/.*/$value/' >>\"\$2\"";  fails "wrote the log-likelihood '${value#\"\"}': expected a number or -inf; point 4 of 200"
 done
