@@ -83,10 +83,13 @@ int main(int argc, char** argv) {
       markdown_file.emplace(markdown_output);
     }
 
+    io::Progress progress("verdicts", 3, !report.quiet());
     const auto columns = replication::printed_columns(printed.areas, printed.counts);
     const auto contrasts =
         replication::contrast_samplers(studies, columns, run_options.seed, table_options.draws);
+    progress.advance();
     const auto joint = replication::test_jointly(studies, columns, null_of(studies, printed));
+    progress.advance();
 
     const auto audit = replication::audit(observations, stated, alternative_force_n,
                                           replication::with_exact_rules(reading.physics));

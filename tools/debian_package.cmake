@@ -1,7 +1,11 @@
 # `make deb`: the installed libraries as a package of Debian, by CPack.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME libtmcmc-companion-dev)
-set(CPACK_PACKAGE_CONTACT "The contributors of tmcmc-companion <tmcmc-companion@localhost>")
+# Whoever makes the package maintains it: DEBFULLNAME and DEBEMAIL of the environment, as for Debian's own tools.
+set(CPACK_PACKAGE_CONTACT "The contributors of tmcmc-companion <root@localhost>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "TMCMC sampler, p-boxes, Coulomb-friction oscillator (development files)")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
