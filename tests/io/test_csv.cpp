@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +14,11 @@ using io::CsvTable;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Processor time of this program, s, which other programs do not lengthen.
+double processor_time() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 }  // namespace
 
@@ -226,22 +231,22 @@ TEST_CASE_METHOD(CsvFixture, "the caller can refuse a cell in the same words", "
         "x.csv:4: column 'phase_deg': value '400': expected an angle in [-180, 180]");
 }
 
-TEST_CASE_METHOD(CsvFixture, "a large table is read in well under half a second", "[io][csv]") {
+TEST_CASE_METHOD(CsvFixture, "a large table takes no quadratic time", "[io][csv]") {
   constexpr std::size_t rows = 100000;
   std::string content = "a,b,c,d,e,f\n";
   for (std::size_t i = 0; i < rows; ++i) {
     content += "0.12345678901234567,-1.5e-7,3,123456.789,-0.333333333333333,1e10\n";
   }
   const std::filesystem::path path = put(content);
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_time();
   const CsvTable t = CsvTable::read(path);
   double sum = 0.0;
   for (const std::string& name : t.column_names()) sum += t.numbers(name).back();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const double elapsed = processor_time() - start;
   CHECK(t.rows() == rows);
   CHECK(sum > 1e10);
   // Loose, because instrumented builds are slow: an algorithm that is quadratic in the rows takes minutes.
-  CHECK(elapsed.count() < 5.0);
+  CHECK(elapsed < 5.0);
 }
 
 TEST_CASE_METHOD(CsvFixture, "a long table of one column takes no quadratic time", "[io][csv]") {
@@ -249,10 +254,10 @@ TEST_CASE_METHOD(CsvFixture, "a long table of one column takes no quadratic time
   std::string content = "a\n";
   for (std::size_t i = 0; i < rows; ++i) content += "0.125\n";
   const std::filesystem::path path = put(content);
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_time();
   CHECK(CsvTable::read(path).numbers("a").size() == rows);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  CHECK(elapsed.count() < 5.0);
+  const double elapsed = processor_time() - start;
+  CHECK(elapsed < 5.0);
 }
 
 TEST_CASE_METHOD(CsvFixture, "a table of many columns takes no quadratic time", "[io][csv]") {
@@ -260,15 +265,15 @@ TEST_CASE_METHOD(CsvFixture, "a table of many columns takes no quadratic time", 
   std::string line = "0";
   for (std::size_t i = 1; i < columns; ++i) line.append(",").append(std::to_string(i));
   const std::filesystem::path path = put(line + "\n" + line + "\n");
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_time();
   const CsvTable t = CsvTable::read(path);
   bool right = t.column_names().size() == columns;
   for (std::size_t i = 0; i < columns; i += 10) {
     right = right && t.cell(0, std::to_string(i)) == std::to_string(i);
   }
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const double elapsed = processor_time() - start;
   CHECK(right);
-  CHECK(elapsed.count() < 5.0);
+  CHECK(elapsed < 5.0);
 }
 
 TEST_CASE("numbers are written in the shortest form that reads back", "[io][csv]") {

@@ -124,7 +124,7 @@ TEST_CASE("prior draws depend on row and key alone", "[tmcmc][prior]") {
   CHECK((prior.sample(1000, {.seed = 1}).topRows(10) == few));
   CHECK((prior.sample(10, {.seed = 2}) != few));
   CHECK((prior.sample(10, {.seed = 1, .run = 1}) != few));
-  CHECK((prior.sample(10001, {.seed = 1}, 3) == prior.sample(10001, {.seed = 1})));
+  CHECK((prior.sample(10001, {.seed = 1}, /*threads=*/3) == prior.sample(10001, {.seed = 1})));
 }
 
 TEST_CASE("prior draws stay inside a box as narrow as three doubles", "[tmcmc][prior]") {
@@ -168,7 +168,7 @@ TEST_CASE("the proposal covariance is Eq. 5, about either mean", "[tmcmc][propos
         const Eigen::MatrixXd covariance = covariance_of(s, 0.2, centre);
         CHECK(largest_difference(covariance, exact_covariance(s, 0.2, centre)) < rounding);
         CHECK(covariance == covariance.transpose());
-        CHECK(covariance == proposal_covariance(s.points, s.weights, s.sum, 0.2, centre, 3));
+        CHECK(covariance == proposal_covariance(s.points, s.weights, s.sum, 0.2, centre, /*threads=*/3));
       }
     }
   }

@@ -78,7 +78,7 @@ TEST_CASE("uniform marginals are the box, to the last bit", "[tmcmc][prior]") {
 TEST_CASE("each marginal of a prior has its distribution and no correlation with the others",
           "[tmcmc][prior]") {
   const auto parameters = three_parameters();
-  const Population points = Prior(parameters).sample(20000, {.seed = 5}, 2);
+  const Population points = Prior(parameters).sample(20000, {.seed = 5}, /*threads=*/2);
   for (Index j = 0; j < 3; ++j) {
     CHECK(statistics::kolmogorov(column(points, j), [&](double x) {
             return parameters[static_cast<std::size_t>(j)].marginal.cdf(x);
@@ -93,7 +93,7 @@ TEST_CASE("a Gaussian copula keeps the marginals and correlates the normal score
   const Prior prior(parameters, {three_correlations()});
   constexpr Index n = 20000;
   const Population points = prior.sample(n, {.seed = 6});
-  CHECK((prior.sample(n, {.seed = 6}, 3) == points));
+  CHECK((prior.sample(n, {.seed = 6}, /*threads=*/3) == points));
   Population scores(n, 3);
   for (Index j = 0; j < 3; ++j) {
     const Marginal& marginal = parameters[static_cast<std::size_t>(j)].marginal;
@@ -208,7 +208,7 @@ TEST_CASE("names and functions that a prior lacks are named", "[tmcmc][prior]") 
 
 TEST_CASE("a prior of the user's own draws by itself, and errors in it are found", "[tmcmc][prior]") {
   const Prior prior(hierarchy());
-  const Population points = prior.sample(20000, {.seed = 9}, 2);
+  const Population points = prior.sample(20000, {.seed = 9}, /*threads=*/2);
   CHECK((prior.sample(20000, {.seed = 9}) == points));
   CHECK(statistics::kolmogorov(column(points, 1), [](double x) {
           return statistics::normal_cdf(x / std::sqrt(1.25));
