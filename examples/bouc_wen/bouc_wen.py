@@ -27,18 +27,21 @@ def base_acceleration(step):
     return 3.0 * math.sin(math.pi * t / 8.0) * (math.sin(2 * math.pi * 1.1 * t) + 0.6 * math.sin(2 * math.pi * 1.7 * t))
 
 
+ACCELERATION = [base_acceleration(step) for step in range(OBSERVATIONS * STEPS_PER_OBSERVATION + 1)]
+
+
 def displacements(natural_frequency, beta, gamma):
-    """Yields the displacements, m, of all oscillators at the times of the observations."""
-    omega = 2.0 * math.pi * np.asarray(natural_frequency, dtype=float)
+    """Yields the displacements, m, of one oscillator (numbers) or many (arrays) at the times of the observations."""
+    omega = 2.0 * math.pi * natural_frequency
     stiffness, damping = omega * omega, 2.0 * DAMPING_RATIO * omega
-    x, v, z = (np.zeros_like(omega) for _ in range(3))
+    x = v = z = 0.0 * omega
 
     def rates(v, x, z, a):
         force = damping * v + stiffness * (ELASTIC_SHARE * x + (1.0 - ELASTIC_SHARE) * z)
-        return -a - force, v - np.abs(v) * z * beta - v * np.abs(z) * gamma
+        return -a - force, v - abs(v) * z * beta - v * abs(z) * gamma
 
     for step in range(1, OBSERVATIONS * STEPS_PER_OBSERVATION + 1):
-        a, a_next = base_acceleration(step - 1), base_acceleration(step)
+        a, a_next = ACCELERATION[step - 1], ACCELERATION[step]
         dv, dz = rates(v, x, z, a)
         dv_next, dz_next = rates(v + TIME_STEP * dv, x + TIME_STEP * v, z + TIME_STEP * dz, a_next)
         x, v, z = (
@@ -61,12 +64,14 @@ MEASURED = measured()
 
 def log_likelihood(points):
     """Of an (n, 4) array of points, a row a point, in the order of PARAMETERS: n values."""
-    frequency, beta, gamma, noise = np.ascontiguousarray(np.asarray(points, dtype=float).T)
-    misfit = np.zeros_like(frequency)
+    points = np.asarray(points, dtype=float)
+    # one point as plain numbers, which are several times faster than arrays of one element
+    frequency, beta, gamma, noise = points[0].tolist() if len(points) == 1 else np.ascontiguousarray(points.T)
+    misfit = 0.0
     with np.errstate(all="ignore"):
         for model, observed in zip(displacements(frequency, beta, gamma), MEASURED):
-            misfit += (observed - model) ** 2
+            misfit = misfit + (observed - model) * (observed - model)
     # math.log is the same for one point and for many, which NumPy's is not
-    log_noise = np.array([math.log(value) for value in noise])
+    log_noise = np.array([math.log(value) for value in points[:, 3]])
     values = -0.5 * misfit / (noise * noise) - len(MEASURED) * (log_noise + 0.5 * math.log(2.0 * math.pi))
     return np.where(np.isfinite(values), values, -np.inf)

@@ -6,5 +6,5 @@ import bouc_wen as model
 if __name__ == "__main__":
     random.seed(7)
     print("time_s,displacement_m")
-    for k, x in enumerate(model.displacements([1.2], 40.0, 20.0), start=1):
-        print(f"{k * model.STEPS_PER_OBSERVATION * model.TIME_STEP:.1f},{x[0] + random.gauss(0.0, 0.002):.5f}")
+    for k, x in enumerate(model.displacements(1.2, 40.0, 20.0), start=1):
+        print(f"{k * model.STEPS_PER_OBSERVATION * model.TIME_STEP:.1f},{x + random.gauss(0.0, 0.002):.5f}")
