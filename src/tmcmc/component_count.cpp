@@ -56,14 +56,16 @@ Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, c
   const auto d = static_cast<double>(data.points.cols());
   // Of few points the score is noisy, and there are chance gains in many coordinates.
   const double least_gain = std::max(options.gain_of_component, d / (weight_even + weight_odd));
+  MixtureFitOptions few = options;
+  few.most_iterations = (options.most_iterations + 1) / 2;  // are enough to compare
   double best_score = -std::numeric_limits<double>::infinity();
   Index best = 1;
   for (Index k = 1; k <= options.most_components; k *= 2) {
     if (k > 1 && std::min(weight_even, weight_odd) < static_cast<double>(k) * (2.0 + 0.5 * d)) {
       break;
     }
-    const double score = (total_log_density(fit_mixture(even, k, options, key, stage), odd) +
-                          total_log_density(fit_mixture(odd, k, options, key, stage), even)) /
+    const double score = (total_log_density(fit_mixture(even, k, few, key, stage), odd) +
+                          total_log_density(fit_mixture(odd, k, few, key, stage), even)) /
                          (weight_even + weight_odd);
     if (score > best_score + least_gain) {
       best_score = score;

@@ -102,7 +102,7 @@ class Fit {
       return mixture;
     }
     // Every so many points are enough to start from.
-    constexpr Index most_points = 1000;
+    constexpr Index most_points = 500;
     const Index stride = (n_ + most_points - 1) / most_points;
     const Index n = (n_ + stride - 1) / stride;
     Population points(n, d_);

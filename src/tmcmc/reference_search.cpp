@@ -2,60 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
-#include "portable_math/multiversion.hpp"
 #include "tmcmc/detail/infinity.hpp"
-#include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/detail/separate_modes.hpp"
 #include "tmcmc/log_weights.hpp"
-#include "tmcmc/parallel.hpp"
 
 namespace tmcmc {
 
-using detail::require_valid;
-
 namespace {
-
-template <class Matrix>
-Matrix stacked(const Matrix& a, const Matrix& b) {
-  Matrix all(a.rows() + b.rows(), b.cols());
-  for (Index j = 0; j < b.cols(); ++j) {
-    if (a.rows() > 0) {
-      all.col(j).head(a.rows()) = a.col(j);
-    }
-    all.col(j).tail(b.rows()) = b.col(j);
-  }
-  return all;
-}
-
-/// log_sum = log(exp(log_sum) + exp(shift + added)), at least one of them finite.
-PORTABLE_MATH_MULTIVERSION
-void log_add(double shift, const double* added, Index n, double* log_sum) {
-  for (Index i = 0; i < n; ++i) {
-    const double first = log_sum[i];
-    const double second = shift + added[i];
-    const double larger = first > second ? first : second;
-    const double smaller = first > second ? second : first;
-    log_sum[i] = larger + portable_math::log_positive(1.0 + portable_math::exp(smaller - larger));
-  }
-}
-
-/// Adds count * reference to the mixture at the points.
-void add_reference(const ReferenceDensity& reference, Index count, const Population& z,
-                   const Eigen::VectorXd& log_prior, Eigen::VectorXd& log_mixture, int threads) {
-  const Eigen::VectorXd density = log_density(reference, z, log_prior, threads);
-  log_add(portable_math::log(static_cast<double>(count)), density.data(), density.size(), log_mixture.data());
-}
 
 Index feasible_draws(const ReferenceDraws& draws) {
   return (draws.log_likelihood.array() > -detail::infinity).count();
 }
 
-/// Points whose weights sum to their effective size, without those of less than a thousandth of the mean weight.
+/// Points whose weights sum to their effective size, without those of less than a hundredth of the mean weight.
 WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double effective) {
-  constexpr double least_weight = 1e-3;
+  constexpr double least_weight = 0.01;
   WeightedPoints data;
   if (!(effective > 0.0)) {
     return data;
@@ -82,86 +45,40 @@ WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_
   return data;
 }
 
-/// The weights for L^beta p.
-Eigen::VectorXd at_temperature(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double beta) {
-  Eigen::VectorXd tempered = log_weight;
-  for (Index i = 0; i < tempered.size(); ++i) {
-    if (draws.log_likelihood[i] > -detail::infinity) {
-      tempered[i] -= (1.0 - beta) * draws.log_likelihood[i];
+/// The largest beta in (0, 1) at which the effective size is `wanted` or up to 3 % more: a bracket from 1 down in decades, and
+/// interpolation of the logarithms in it. 0 if there is none.
+/// \param at_one  effective size at 1, less than wanted
+template <class Function>
+double beta_of_size(const Function& effective_at, double wanted, double at_one) {
+  constexpr double least_beta = 1e-30;
+  constexpr double largest_excess = 1.03;
+  constexpr int most_steps = 12;
+  double high = 1.0;
+  double at_high = at_one;
+  double low = 0.1;
+  double at_low = effective_at(low);
+  while (at_low < wanted) {
+    if (low < least_beta) {
+      return 0.0;
     }
+    high = low;
+    at_high = at_low;
+    low *= 0.1;
+    at_low = effective_at(low);
   }
-  return tempered;
+  using portable_math::log;
+  for (int step = 0; step < most_steps && at_low > largest_excess * wanted; ++step) {
+    const double aim = std::sqrt(largest_excess) * wanted;
+    const double part = at_high > 0.0 ? log(at_low / aim) / log(at_low / at_high) : 0.5;
+    const double middle = low * portable_math::exp(std::clamp(part, 0.1, 0.9) * log(high / low));
+    const double at_middle = effective_at(middle);
+    (at_middle >= wanted ? low : high) = middle;
+    (at_middle >= wanted ? at_low : at_high) = at_middle;
+  }
+  return low;
 }
 
 }  // namespace
-
-void ReferenceDraws::append(const ReferenceDraws& other, int threads) {
-  if (references.empty()) {
-    *this = other;
-    return;
-  }
-  ReferenceDraws added = other;
-  for (std::size_t r = 0; r < references.size(); ++r) {
-    add_reference(references[r], counts[r], added.z, added.log_prior, added.log_mixture, threads);
-  }
-  for (std::size_t r = 0; r < other.references.size(); ++r) {
-    add_reference(other.references[r], other.counts[r], z, log_prior, log_mixture, threads);
-  }
-  z = stacked(z, added.z);
-  log_prior = stacked(log_prior, added.log_prior);
-  log_likelihood = stacked(log_likelihood, added.log_likelihood);
-  log_mixture = stacked(log_mixture, added.log_mixture);
-  references.insert(references.end(), other.references.begin(), other.references.end());
-  counts.insert(counts.end(), other.counts.begin(), other.counts.end());
-}
-
-void ReferenceDraws::append_of_same_density(const ReferenceDraws& other) {
-  const auto before = static_cast<double>(counts.front());
-  const auto added = static_cast<double>(other.counts.front());
-  counts.front() += other.counts.front();
-  z = stacked(z, other.z);
-  log_prior = stacked(log_prior, other.log_prior);
-  log_likelihood = stacked(log_likelihood, other.log_likelihood);
-  const Eigen::VectorXd mine = log_mixture.array() + portable_math::log((before + added) / before);
-  const Eigen::VectorXd others = other.log_mixture.array() + portable_math::log((before + added) / added);
-  log_mixture = stacked(mine, others);
-}
-
-ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity& reference, Index n,
-                                 const StreamKey& key, std::uint32_t stage, int threads, Index batch_rows) {
-  ReferenceDraws draws{
-      .z = sample(reference, problem.prior, n, key, stage, threads),
-      .log_prior = {},
-      .log_likelihood = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN()),
-      .log_mixture = {},
-      .references = {reference},
-      .counts = {n}};
-  draws.log_prior = log_prior_density(draws.z, problem.prior, threads);
-  draws.log_mixture = log_density(reference, draws.z, draws.log_prior, threads).array() +
-                      portable_math::log(static_cast<double>(n));
-  const Population x = from_unbounded(draws.z, problem.prior);
-  for_each_block(n, rows_per_call(n, threads, batch_rows), threads, [&](Index, Index begin, Index end) {
-    problem.log_likelihood(x.middleRows(begin, end - begin),
-                           draws.log_likelihood.segment(begin, end - begin));
-  });
-  require_valid(x, draws.log_likelihood);
-  return draws;
-}
-
-Eigen::VectorXd log_weights(const ReferenceDraws& draws) {
-  const double log_n = portable_math::log(static_cast<double>(draws.z.rows()));
-  return (draws.log_prior + draws.log_likelihood - draws.log_mixture).array() + log_n;
-}
-
-Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
-                                     const Eigen::VectorXd& log_prior, int threads) {
-  constexpr double nearly_nothing = -1e300;
-  Eigen::VectorXd log_mixture = Eigen::VectorXd::Constant(z.rows(), nearly_nothing);
-  for (std::size_t r = 0; r < draws.references.size(); ++r) {
-    add_reference(draws.references[r], draws.counts[r], z, log_prior, log_mixture, threads);
-  }
-  return log_mixture;
-}
 
 WeightedPoints fit_points(const ReferenceDraws& draws, double fewest) {
   const Eigen::VectorXd log_weight = log_weights(draws);
@@ -173,36 +90,34 @@ WeightedPoints fit_points(const ReferenceDraws& draws, double fewest) {
 
 TemperedPoints tempered_points(const ReferenceDraws& draws, double target) {
   constexpr Index fewest_feasible = 10;
-  constexpr double least_beta = 1e-30;
   const Eigen::VectorXd log_weight = log_weights(draws);
   const Index feasible = feasible_draws(draws);
   if (feasible < fewest_feasible) {
     return {weighted(draws, log_weight, 0.0)};
   }
   const double wanted = std::min(target, 0.5 * static_cast<double>(feasible));
-  const auto effective_at = [&](double beta) {
-    return effective_sample_size(as_span(at_temperature(draws, log_weight, beta)), 1.0);
+  // An excluded draw keeps its weight of 0.
+  const Eigen::VectorXd log_likelihood =
+      (draws.log_likelihood.array() > -detail::infinity).select(draws.log_likelihood, 0.0);
+  const auto at_temperature = [&](double beta) -> Eigen::VectorXd {
+    return log_weight - (1.0 - beta) * log_likelihood;
   };
-  double low = effective_at(1.0) >= wanted ? 1.0 : 0.0;
-  double high = 1.0;
-  while (low == 0.0 && high > least_beta) {
-    (effective_at(0.1 * high) >= wanted ? low : high) = 0.1 * high;
-  }
-  for (int i = 0; i < 8 && low > 0.0 && low < 1.0; ++i) {
-    const double middle = std::sqrt(low * high);
-    (effective_at(middle) >= wanted ? low : high) = middle;
-  }
-  const Eigen::VectorXd tempered = at_temperature(draws, log_weight, low);
+  const auto effective_at = [&](double beta) {
+    return effective_sample_size(as_span(at_temperature(beta)), 1.0);
+  };
+  const double at_one = effective_at(1.0);
+  const double beta = at_one >= wanted ? 1.0 : beta_of_size(effective_at, wanted, at_one);
+  const Eigen::VectorXd tempered = at_temperature(beta);
   const double effective = effective_sample_size(as_span(tempered), 1.0);
-  return {weighted(draws, tempered, effective), low, effective};
+  return {weighted(draws, tempered, effective), beta, effective};
 }
 
 namespace {
 
-/// Fits the draws so far: the number of components is chosen where they have grown by two fifths and where beta has come to 1.
+/// Fits the draws so far: the number of components is chosen where they have doubled and where beta has come to 1.
 void fit_round(const TemperedPoints& tempered, const SearchOptions& options, const StreamKey& key,
                std::uint32_t stage, Index& rows_at_choice, Search& search) {
-  constexpr double growth = 1.4;
+  constexpr double growth = 2.0;
   constexpr int iterations_from_last_fit = 3;
   constexpr double tempered_below = 0.3;
   const Index rows = search.draws.z.rows();

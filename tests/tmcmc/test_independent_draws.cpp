@@ -5,6 +5,7 @@
 
 #include "errors/invalid_value.hpp"
 #include "problems.hpp"
+#include "tmcmc/reference_search.hpp"
 #include "tmcmc/sampler.hpp"
 #include "tmcmc/weighted_samples.hpp"
 
@@ -185,6 +186,21 @@ TEST_CASE("Either rule of the paper chooses the same temperatures where the targ
   CHECK(by_size.final.points == by_variation.final.points);
   options.criterion = effective_sample_size_rule(0.8);
   CHECK(run(normal(), options, {.seed = 8}).final.points(0, 0) != by_size.final.points(0, 0));
+}
+
+TEST_CASE("Beta is the largest with the effective size asked for, up to 3 percent of it") {
+  const auto draws = draw_and_evaluate(normal(), {.prior_share = 1.0}, 20000, {.seed = 18}, 0);
+  double before = 1.0;
+  for (const double target : {600.0, 1000.0, 3000.0, 8000.0}) {
+    const TemperedPoints tempered = tempered_points(draws, target);
+    CHECK(tempered.effective_sample_size >= target);
+    CHECK(tempered.effective_sample_size <= 1.03 * target);
+    CHECK(tempered.beta < before);
+    CHECK(tempered.points.weights.sum() == Approx(tempered.effective_sample_size));
+    before = tempered.beta;
+  }
+  CHECK(tempered_points(draws, 10.0).beta == 1.0);
+  CHECK(tempered_points(draws, 1e9).effective_sample_size == Approx(10000.0).epsilon(0.03));
 }
 
 TEST_CASE("Two modes in ten dimensions keep their masses") {
