@@ -1,13 +1,10 @@
 #include "run_progress.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <string_view>
-#include <utility>
+
+#include "io/terminal_line.hpp"
 
 namespace examples {
 
@@ -15,20 +12,11 @@ namespace {
 
 constexpr std::chrono::milliseconds redraw_every(200), silent_for(500);
 
-bool can_draw() {
-  const char* const terminal = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) != 0 && !(terminal != nullptr && std::string_view(terminal) == "dumb");
-}
-
-void show(std::string_view text) {
-  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
-}
-
 }  // namespace
 
 RunProgress::RunProgress(long runs, long evaluations, bool is_enabled)
     : runs_(runs), evaluations_(evaluations) {
-  if (!is_enabled || !can_draw()) {
+  if (!is_enabled || !io::can_redraw_line()) {
     return;
   }
   drawer_ = std::jthread([this](const std::stop_token& stop) {
@@ -39,7 +27,9 @@ RunProgress::RunProgress(long runs, long evaluations, bool is_enabled)
       draw();
       is_drawn = true;
     }
-    show(is_drawn ? "\r\x1B[K" : "");
+    if (is_drawn) {
+      io::redraw_line("");
+    }
   });
 }
 
@@ -60,14 +50,10 @@ void RunProgress::update(const tmcmc::Progress& progress) {
 
 void RunProgress::draw() const {
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
-  std::string line =
-      fmt::format("{}stage {}, beta {:.3g}, {} of {} evaluations, {:.0f} s",
-                  runs_ > 1 ? fmt::format("run {} of {}, ", run_.load(), runs_) : "", stage_.load() + 1,
-                  beta_.load(), std::min(done_.load(), evaluations_), evaluations_, time.count());
-  winsize size{};
-  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  line.resize(std::min<std::size_t>(line.size(), is_known ? size.ws_col - 1U : 79U));
-  show("\r" + line + "\x1B[K");
+  io::redraw_line(fmt::format("{}stage {}, beta {:.3g}, {} of {} evaluations, {:.0f} s",
+                              runs_ > 1 ? fmt::format("run {} of {}, ", run_.load(), runs_) : "",
+                              stage_.load() + 1, beta_.load(), std::min(done_.load(), evaluations_),
+                              evaluations_, time.count()));
 }
 
 }  // namespace examples

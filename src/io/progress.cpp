@@ -1,36 +1,20 @@
 #include "io/progress.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "io/interrupt.hpp"
+#include "io/terminal_line.hpp"
 
 namespace io {
-namespace {
-
-bool can_draw() {
-  const char* const terminal = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) != 0 && !(terminal != nullptr && std::string_view(terminal) == "dumb");
-}
-
-void show(std::string_view text) {
-  // A bar that cannot be drawn is no reason to stop the work.
-  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text.data(), text.size());
-}
-
-}  // namespace
 
 Progress::Progress(std::string label, std::size_t total, bool enabled)
-    : label_(std::move(label)), total_(total), active_(enabled && total > 0 && can_draw()) {}
+    : label_(std::move(label)), total_(total), active_(enabled && total > 0 && can_redraw_line()) {}
 
 Progress::~Progress() {
-  if (drawn_) show("\r\x1B[K");
+  if (drawn_) redraw_line("");
 }
 
 void Progress::advance(std::size_t n) {
@@ -52,12 +36,8 @@ void Progress::draw(std::size_t done, Clock::duration elapsed) {
   const auto filled = static_cast<std::size_t>(fraction * static_cast<double>(bar_width));
   const double elapsed_s = std::chrono::duration<double>(elapsed).count();
   const double left_s = done > 0 ? elapsed_s * (1.0 - fraction) / fraction : 0.0;
-  std::string line = fmt::format("{} [{:.<{}}] {:3.0f} % {}/{}, {:.0f} s left", label_,
-                                 std::string(filled, '#'), bar_width, 100.0 * fraction, done, total_, left_s);
-  winsize size{};
-  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  line.resize(std::min<std::size_t>(line.size(), is_known ? size.ws_col - 1U : 79U));
-  show("\r" + line + "\x1B[K");
+  redraw_line(fmt::format("{} [{:.<{}}] {:3.0f} % {}/{}, {:.0f} s left", label_, std::string(filled, '#'),
+                          bar_width, 100.0 * fraction, done, total_, left_s));
   drawn_ = true;
 }
 

@@ -1,0 +1,16 @@
+/// \file
+/// A line on standard error that is drawn again and again.
+#pragma once
+
+#include <string>
+
+namespace io {
+
+/// Whether standard error is a terminal that can clear a line.
+[[nodiscard]] bool can_redraw_line();
+
+/// Replaces the line, cut to the width of the terminal; an empty text clears it. Errors are ignored: a line that cannot be
+/// drawn is no reason to stop the work.
+void redraw_line(std::string text);
+
+}  // namespace io
