@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
     }
 
     // 4. The results, put in place one right after the other.
-    const auto summary = summarise(results, model.prior);
+    const auto summary = statistics::summarise(results, model.prior);
     print_summary(report, summary, results);
     write_summary(summary_csv, summary);
     write_samples(csv, results);
