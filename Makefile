@@ -174,10 +174,10 @@ figures/fig9_null_distributions.pdf: $(addprefix $(GEN)/fig9_null_distributions,
 figures/fig10_iteration_tables.pdf: $(GEN)/fig9_null_distributions_counts.csv
 figures/fig11_readings.pdf: $(GEN)/readings.csv $(TABLE3)
 figures/fig12_cost_accuracy.pdf: $(GEN)/cost_accuracy.csv $(GEN)/pbox_floor_growth.csv
-figures/fig13_calibration.pdf: $(GEN)/calibration_ranks.csv
+figures/fig13_calibration.pdf: figures/distinct.gp $(GEN)/calibration_ranks.csv
 figures/fig14_forensics.pdf: $(GEN)/forensics_pairs.csv
 figures/fig15_prior_sensitivity.pdf: $(GEN)/prior_sensitivity_pbox.csv
-figures/fig16_arena.pdf: $(GEN)/benchmark_problems.csv
+figures/fig16_arena.pdf: figures/distinct.gp $(GEN)/benchmark_problems.csv
 
 # ---------------------------------------------------------------- replication report, and the tables in the README
 

@@ -1,6 +1,7 @@
 #include "own_figures.hpp"
 
 #include <filesystem>
+#include <limits>
 
 #include "build_info.hpp"
 #include "corner_tables.hpp"
@@ -27,11 +28,16 @@ experiments::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const 
   return samples;
 }
 
+/// Rounds of a search, of which a run of independent draws consists, have neither acceptance rate nor evidence.
 void write_stages(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    const bool is_search = runs[r].measurement.has_value();
+    double log_evidence = 0.0;
     for (const auto& stage : runs[r].stages) {
-      csv.row(r + 1, stage.stage, stage.beta, stage.effective_sample_size, stage.acceptance_rate,
-              stage.log_evidence_increment);
+      log_evidence += stage.log_evidence_increment;
+      csv.row(r + 1, stage.stage, stage.beta, stage.effective_sample_size,
+              is_search ? nan : stage.acceptance_rate, is_search ? nan : log_evidence);
     }
   }
 }
@@ -60,7 +66,7 @@ void OwnFigures::make(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior
   experiments::CornerTables tables(path("corner.csv"), path("corner_marginals.csv"),
                                    path("corner_summary.csv"));
   auto stages = experiments::open_csv(path("stages.csv"), {"run", "stage", "beta", "effective_sample_size",
-                                                           "acceptance_rate", "log_evidence_increment"});
+                                                           "acceptance_rate", "log_evidence"});
   tables.write(pooled(runs, prior), bins);
   write_stages(stages, runs);
   io::commit_all(tables.joint, tables.marginals, tables.summary, stages);

@@ -33,8 +33,7 @@ int main(int argc, char** argv) {
       "calibration");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   RunOptions run_options;
   replication::CalibrationOptions options;
   std::string ranks_output;
@@ -47,12 +46,10 @@ int main(int argc, char** argv) {
       ->transform(count(2, 1000000));
   run_options.add_seed_to(app);
   run_options.add_threads_to(app);
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  inputs.add_to(app);
 
   return report.run(argc, argv, [&] {
-    const auto reading = physics.reading();
+    const auto reading = inputs.physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
     options.seed = run_options.seed;
@@ -76,7 +73,7 @@ int main(int argc, char** argv) {
     const double band_low = boost::math::quantile(in_bin, 0.005);
     const double band_high = boost::math::quantile(boost::math::complement(in_bin, 0.005));
     report("{} simulated data sets, {} draws each, seed {}, reading {}\n", options.replications,
-           options.draws, options.seed, physics.reading_name);
+           options.draws, options.seed, inputs.physics.reading_name);
     report("{:<12} {:<22} {:>7} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "", "", "chi^2", "50 %", "90 %", "p(chi^2)",
            "p(50 %)", "p(90 %)");
     io::Progress progress("calibration", arms.size() * static_cast<std::size_t>(options.replications),

@@ -26,20 +26,17 @@ int main(int argc, char** argv) {
                "criterion_identity");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   SamplerOptions sampler;
   RunOptions run_options;
   run_options.runs = 10;
   add_output(app, output, "CSV with one row a stage of each run of TMCMC, and TMCMC-II beside it");
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
+  inputs.add_to(app);
   run_options.add_to(app);
   sampler.add_to(app);
-  physics.add_to(app);
 
   return report.run(argc, argv, [&] {
-    replication::Reading reading = physics.reading();
+    replication::Reading reading = inputs.physics.reading();
     sampler.apply(reading);
     if (!sampler.given("deviation")) {
       reading.sampler.criterion.deviation =

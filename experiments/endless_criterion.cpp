@@ -14,21 +14,18 @@ int main(int argc, char** argv) {
                "endless_criterion");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   SamplerOptions sampler;
   RunOptions run_options;
   sampler.values["max_stages"] = "200";
   sampler.values["minimum_step"] = "0";  // a step of 0 is what is to be shown
   add_output(app, output, "CSV: target_fraction, stages, beta, smallest_step, stop");
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
+  inputs.add_to(app);
   run_options.add_seed_to(app);
   sampler.add_to(app);
-  physics.add_to(app);
 
   return report.run(argc, argv, [&] {
-    replication::Reading reading = physics.reading();
+    replication::Reading reading = inputs.physics.reading();
     sampler.apply(reading);
     const auto problem = interruptible(
         replication::problem(reading, read_observations(inputs.observations), prior_for(inputs, reading)));

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/laplace.hpp"
 #include "inputs.hpp"
 #include "replication/posterior_tables.hpp"
 
@@ -15,26 +14,21 @@ using namespace experiments;
 
 namespace {
 
-void report_parameters(const Report& report, OptionalCsv& csv, const estimation::ExactPosterior& posterior,
-                       const estimation::LaplaceApproximation& laplace,
-                       const estimation::LeastSquaresFit& fit) {
-  const std::array<double, friction::parameter_count> least_squares = {
-      fit.friction_force.estimate, fit.natural_frequency.estimate, fit.friction_force.noise_ml,
-      fit.natural_frequency.noise_ml};
+void report_parameters(const Report& report, OptionalCsv& csv,
+                       const std::vector<replication::ParameterEstimate>& estimates) {
   report("{:<22} {:>10} {:>10} {:>10} {:>10} {:>10} {:>22} {:>13}\n", "", "mean", "sd", "2.5 %", "median",
          "97.5 %", "Laplace mode +- sd", "least squares");
-  for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
-    const auto& exact = posterior.marginal(static_cast<friction::Parameter>(p));
-    const auto quantile = [&](double level) { return digits(exact.quantile(level)); };
+  for (std::size_t p = 0; p < estimates.size(); ++p) {
+    const auto& e = estimates[p];
+    const auto& q = e.quantiles;
     report("{:<22} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>10.5f} {:>22} {:>13}\n", parameter_columns[p],
-           exact.mean(), exact.standard_deviation(), exact.quantile(0.025), exact.quantile(0.5),
-           exact.quantile(0.975),
-           fmt::format("{} +- {}", or_undefined("{:.5f}", laplace.mode[p]),
-                       or_undefined("{:.5f}", laplace.standard_deviation[p])),
-           or_undefined("{:.5f}", least_squares[p]));
-    csv.row(parameter_columns[p], digits(exact.mean()), digits(exact.standard_deviation()), quantile(0.025),
-            quantile(0.25), quantile(0.5), quantile(0.75), quantile(0.975), digits(laplace.mode[p], 8),
-            digits(laplace.standard_deviation[p], 8), digits(least_squares[p], 8));
+           e.mean, e.standard_deviation, q[0], q[2], q[4],
+           fmt::format("{} +- {}", or_undefined("{:.5f}", e.laplace_mode),
+                       or_undefined("{:.5f}", e.laplace_standard_deviation)),
+           or_undefined("{:.5f}", e.least_squares));
+    csv.row(parameter_columns[p], digits(e.mean), digits(e.standard_deviation), digits(q[0]), digits(q[1]),
+            digits(q[2]), digits(q[3]), digits(q[4]), digits(e.laplace_mode, 8),
+            digits(e.laplace_standard_deviation, 8), digits(e.least_squares, 8));
   }
 }
 
@@ -55,55 +49,45 @@ void compare_samplers(const Report& report, OptionalCsv& csv, const replication:
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Exact posterior (Eq. 24) by quadrature, and how far the samplers are from it.",
-               "exact_posterior");
+  CLI::App app("Exact posterior (Eq. 24), and how far the samplers are from it.", "exact_posterior");
   Report report(app);
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   std::optional<double> threshold;
   long points = 401, bins = 50;
   std::string output, summary_output, runs_input, samplers_output, marginals_output, samples_input,
       histogram_output, pbox_output;
+  auto* const of_runs = add_input(app, "--runs-input", runs_input, "--runs-output of sampling_study");
+  auto* const of_samples = add_input(app, "--samples-input", samples_input, "--output of sampling_study");
   add_output(app, output, "CSV: one row a parameter with moments and quantiles, Laplace and least squares");
   add_output(app, "--summary-output", summary_output,
              "CSV: quantity, value: log-evidence, its error, Laplace's, P(F_mu > threshold)");
   add_output(app, "--marginals-output", marginals_output, "CSV: parameter, x, density, cdf, laplace_density");
-  add_output(app, "--samplers-output", samplers_output, "CSV: what each sampler is off (needs --runs-input)");
-  add_output(app, "--histogram-output", histogram_output,
-             "CSV: pooled samples of each sampler (needs --samples-input)");
+  add_output(app, "--samplers-output", samplers_output, "CSV: the errors of each sampler")->needs(of_runs);
+  add_output(app, "--histogram-output", histogram_output, "CSV: pooled samples of each sampler")
+      ->needs(of_samples);
   add_output(app, "--pbox-output", pbox_output,
-             "CSV: p-boxes of each sampler beside the exact distribution function (needs --samples-input)");
-  add_input(app, "--runs-input", runs_input, "Runs of a study: what sampling_study writes to --runs-output");
-  add_input(app, "--samples-input", samples_input,
-            "Samples of a study: what sampling_study writes to --output");
-  app.add_option(
-         "--exceedance", threshold,
-         "Friction force whose probability to be exceeded is wanted, N; without it 1.086 N for Table 1")
+             "CSV: p-boxes of each sampler beside the exact distribution function")
+      ->needs(of_samples);
+  app.add_option("--exceedance", threshold, "Threshold of P(F_mu > threshold), N; for Table 1 it is 1.086")
       ->transform(non_negative());
   app.add_option("--points", points, "Grid points of each marginal")->transform(count(2, 1000000));
   app.add_option("--bins", bins, "Bins of each histogram")->transform(count(1, 1000000));
-  app.get_option("--samplers-output")->needs(app.get_option("--runs-input"));
-  app.get_option("--histogram-output")->needs(app.get_option("--samples-input"));
-  app.get_option("--pbox-output")->needs(app.get_option("--samples-input"));
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  inputs.add_to(app);
 
   return report.run(argc, argv, [&] {
-    const auto runs =
-        runs_input.empty() ? replication::GroupedColumns() : replication::read_estimates(runs_input);
-    const auto samples = samples_input.empty()
-                             ? replication::GroupedColumns()
-                             : read_samples(io::CsvTable::read(samples_input), parameter_columns,
-                                            "the samples of sampling_study");
-    const auto reading = physics.reading();
+    replication::GroupedColumns runs, samples;
+    if (!runs_input.empty()) runs = replication::read_estimates(runs_input);
+    if (!samples_input.empty()) {
+      samples =
+          read_samples(io::CsvTable::read(samples_input), parameter_columns, "the samples of sampling_study");
+    }
+    const auto reading = inputs.physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
     const auto posterior =
         exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior);
     const auto fit = estimation::fit_least_squares(observations, reading.physics);
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    estimation::LaplaceApproximation laplace{false, {nan, nan, nan, nan}, {nan, nan, nan, nan}, nan};
+    estimation::LaplaceApproximation laplace;
     if (prior.is_box()) {  // else the mode would not be that of the likelihood
       laplace = estimation::laplace_approximation(observations, reading.physics, fit,
                                                   bounds_of(prior, "the Laplace approximation"));
@@ -117,10 +101,11 @@ int main(int argc, char** argv) {
         open_csv(samplers_output, {"sampler", "quantity", "runs", "exact", "mean", "bias",
                                    "bias_standard_error", "spread", "rmse", "effective_sample_size"});
     auto histograms = open_csv(histogram_output, {"sampler", "parameter", "low", "high", "density"});
-    auto pboxes = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper", "exact"});
+    auto pboxes = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper", "exact",
+                                         "lower_less_exact", "upper_less_exact"});
     report("Exact posterior of {} ({} observations, reading {})\n", inputs.observations, observations.size(),
-           physics.reading_name);
-    report_parameters(report, csv, posterior, laplace, fit);
+           inputs.physics.reading_name);
+    report_parameters(report, csv, replication::parameter_estimates(posterior, laplace, fit));
     report("log-evidence {:.5f} (relative error of the evidence below {:.0e}); Laplace {}\n",
            posterior.log_evidence(), std::max(posterior.relative_error(), 1e-12),
            or_undefined("{:.3f}", laplace.log_evidence));
@@ -153,10 +138,9 @@ int main(int argc, char** argv) {
       histograms.row(bin.sampler, parameter_columns[bin.parameter], digits(bin.low), digits(bin.high),
                      digits(bin.density));
     }
-    if (pboxes) {
-      for (const auto& b : replication::pbox_points(samples, posterior, points)) {
-        pboxes.row(b.sampler, parameter_columns[b.parameter], digits(b.x), b.lower, b.upper, digits(b.exact));
-      }
+    for (const auto& b : replication::pbox_points(samples, posterior, points)) {
+      pboxes.row(b.sampler, parameter_columns[b.parameter], digits(b.x), b.lower, b.upper, digits(b.exact),
+                 digits(b.lower - b.exact), digits(b.upper - b.exact));
     }
     io::commit_all(csv, summary, marginals, accuracies, histograms, pboxes);
   });

@@ -17,24 +17,17 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   InputFiles inputs;
   double friction_force = 1.086;
-  double lowest = 0.05;
-  double highest = 2.0;
+  constexpr double lowest = 0.05, highest = 2.0;
   long points = 1951;
   add_output(app, output,
              "CSV: frequency_ratio, phase_deg (nan beyond the limit), boundary_phase_deg, limit_force_ratio; "
              "phase_fitted_deg and fitted_force_n by least squares");
   app.add_option("--friction-force", friction_force, "F_mu, N")->transform(non_negative());
-  app.add_option("--from", lowest, "Smallest frequency ratio")->transform(positive());
-  app.add_option("--to", highest, "Largest frequency ratio")->transform(positive());
   app.add_option("--points", points, "Points of the curves")->transform(count(2, 1000000));
   inputs.add_observations_to(app);
   physics.add_to(app);
 
   return report.run(argc, argv, [&] {
-    if (!(lowest < highest)) {
-      throw io::InputError(
-          fmt::format("--to: value '{}': expected a number above --from {}", highest, lowest));
-    }
     const auto reading = physics.reading();
     const auto fit = estimation::fit_least_squares(read_observations(inputs.observations), reading.physics);
     const double fitted_force = std::stod(digits(fit.friction_force.estimate, 6));  // of Ceres

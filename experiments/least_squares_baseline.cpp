@@ -36,16 +36,13 @@ int main(int argc, char** argv) {
   InputFiles inputs;
   PhysicsOptions physics;
   estimation::LeastSquaresOptions options;
-  std::string residuals_output;
   add_output(app, output,
              "CSV: one row a parameter with estimate, standard errors, chi^2 and how the fit went");
-  add_output(app, "--residuals-output", residuals_output, "CSV of the residuals, one row an observation");
   inputs.add_observations_to(app);
   app.add_option("--phase-noise", options.phase_noise_deg, "sigma of the phase angle, deg")
       ->transform(positive());
   app.add_option("--frequency-ratio-noise", options.frequency_ratio_noise, "sigma of the frequency ratio")
       ->transform(positive());
-  app.add_option("--starts", options.starts, "Starting points")->transform(count(1, 1000));
   physics.add_to(app);
 
   return report.run(argc, argv, [&] {
@@ -54,7 +51,6 @@ int main(int argc, char** argv) {
     auto csv = open_csv(
         output, {"parameter", "estimate", "standard_error", "standard_error_ml", "sigma_given", "chi_squared",
                  "reduced_chi_squared", "iterations", "starts", "agreed", "distinct_minima", "at_bound"});
-    auto residuals = open_csv(residuals_output, {"index", "phase_residual_deg", "frequency_ratio_residual"});
     const auto fit = estimation::fit_least_squares(observations, reading.physics, options);
     report_fit(report, "F_mu", "N", fit.friction_force);
     report_fit(report, "omega_n", "Hz", fit.natural_frequency);
@@ -73,10 +69,6 @@ int main(int argc, char** argv) {
     };
     write(parameter_columns[0], parameter_columns[2], fit.friction_force);
     write(parameter_columns[1], parameter_columns[3], fit.natural_frequency);
-    for (std::size_t i = 0; i < observations.size(); ++i) {
-      residuals.row(i + 1, digits(fit.friction_force.residuals[i]),
-                    digits(fit.natural_frequency.residuals[i]));
-    }
-    io::commit_all(csv, residuals);
+    io::commit_all(csv);
   });
 }

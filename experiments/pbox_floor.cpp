@@ -60,8 +60,7 @@ int main(int argc, char** argv) {
                "pbox_floor");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   RunOptions run_options;
   long samples = 1000, studies = 100, points = 401;
   std::string pbox_output, summary_output, growth_output;
@@ -76,12 +75,10 @@ int main(int argc, char** argv) {
   app.add_option("--studies", studies, "K, studies")->transform(count());
   app.add_option("--points", points, "Grid points of each p-box")->transform(count(2, 1000000));
   run_options.add_to(app);
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  inputs.add_to(app);
 
   return report.run(argc, argv, [&] {
-    const auto reading = physics.reading();
+    const auto reading = inputs.physics.reading();
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
     const auto options = run_options.study_options();
@@ -105,7 +102,7 @@ int main(int argc, char** argv) {
       progress.advance();
     });
     report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n", run_options.runs,
-           samples, studies, options.seed, physics.reading_name);
+           samples, studies, options.seed, inputs.physics.reading_name);
     report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
     const std::array<double, 3> probabilities = {0.5, 0.025, 0.975};
     std::array<std::array<double, friction::parameter_count>, 3> quantiles{};

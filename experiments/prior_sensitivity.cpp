@@ -40,8 +40,7 @@ int main(int argc, char** argv) {
                "prior_sensitivity");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   RunOptions run_options;
   std::string pbox_output;
   long points = 101;
@@ -50,12 +49,10 @@ int main(int argc, char** argv) {
              "CSV of exact distribution functions with the p-boxes of the samplers");
   app.add_option("--points", points, "Grid points of each p-box")->transform(count(2, 1000000));
   run_options.add_to(app, 2);
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
-  physics.add_to(app);
+  inputs.add_to(app);
 
   return report.run(argc, argv, [&] {
-    const auto reading = physics.reading();
+    const auto reading = inputs.physics.reading();
     const auto observations = read_observations(inputs.observations);
     const friction::Likelihood likelihood(observations, reading.physics, reading.infeasible_log_likelihood);
     auto arms = replication::paper_arms(reading);

@@ -11,35 +11,10 @@
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "io/journal.hpp"
-#include "storage/settings.hpp"
 
 using namespace experiments;
 
 namespace {
-
-/// Everything that the rows depend on, in one line.
-std::string key(const replication::Reading& reading, const std::vector<replication::Arm>& arms,
-                const replication::StudyOptions& options, long first_study, const friction::Observations& o,
-                const tmcmc::BoxPrior& prior) {
-  std::string text = fmt::format("replicated_study {} first {} runs {} seed {}", version(), first_study,
-                                 options.runs, options.seed);
-  for (const auto& arm : arms) {
-    text += fmt::format(" | {}", arm.name);
-    for (const auto& [name, value] : storage::settings(arm.options)) {
-      text += fmt::format(" {}={}", name, value);
-    }
-  }
-  text +=
-      fmt::format(" | {} {} {} {}", reading.physics.driving_force_n, static_cast<int>(reading.physics.limit),
-                  static_cast<int>(reading.physics.phase), reading.infeasible_log_likelihood);
-  for (const auto* column : {&o.nominal_ratio, &o.measured_ratio, &o.driving_frequency_hz, &o.phase_deg}) {
-    text += fmt::format(" | {}", fmt::join(*column, " "));
-  }
-  for (Eigen::Index j = 0; j < prior.dimension(); ++j) {
-    text += fmt::format(" | {} {}", prior.lower()[j], prior.upper()[j]);
-  }
-  return text;
-}
 
 /// Median and central 95 % of one column, by sampler.
 void report_column(const Report& report, const std::vector<std::string>& rows, std::size_t column,
@@ -64,8 +39,7 @@ int main(int argc, char** argv) {
       "replicated_study");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   SamplerOptions sampler;
   RunOptions run_options;
   long studies = 1000, first_study = 0;
@@ -75,14 +49,12 @@ int main(int argc, char** argv) {
       ->transform(count(1, 100000000));
   app.add_option("--first-study", first_study, "Number of the first study, for sharing the work")
       ->transform(count(0));
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
+  inputs.add_to(app);
   run_options.add_to(app, 2);
   sampler.add_to(app);
-  physics.add_to(app);
 
   return report.run(argc, argv, [&] {
-    replication::Reading reading = physics.reading();
+    replication::Reading reading = inputs.physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
@@ -98,7 +70,9 @@ int main(int argc, char** argv) {
     }
     if (stream && !stream->in_place()) {
       stream.reset();
-      journal.emplace(output, key(reading, arms, options, first_study, observations, prior));
+      journal.emplace(output,
+                      fmt::format("replicated_study {} first {} {}", version(), first_study,
+                                  replication::study_key(reading, arms, options, observations, prior)));
       rows = journal->rows();
       rows.resize(std::min(rows.size() / arms.size(), static_cast<std::size_t>(studies)) * arms.size());
       journal->truncate(rows.size());
@@ -139,7 +113,7 @@ int main(int argc, char** argv) {
       stream->commit();
     }
     report("{} studies of {} runs, seed {}, reading {}\n", studies, options.runs, options.seed,
-           physics.reading_name);
+           inputs.physics.reading_name);
     report("  {:<28} {:<10} {:>12} {:>12} {:>12}\n", "", "sampler", "median", "2.5 %", "97.5 %");
     for (const auto& [column, name] : {std::pair{2U, "p-box area, F_mu, N"},
                                        {3U, "p-box area, omega_n, Hz"},

@@ -67,8 +67,7 @@ int main(int argc, char** argv) {
       "sampling_study");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   SamplerOptions sampler;
   RunOptions run_options;
   std::string runs_output, stages_output;
@@ -77,14 +76,12 @@ int main(int argc, char** argv) {
              "independent");
   add_output(app, "--runs-output", runs_output, "CSV with one row a run: iterations, log-evidence, moments");
   add_output(app, "--stages-output", stages_output, "CSV with one row a stage of each run");
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
+  inputs.add_to(app);
   run_options.add_to(app);
   sampler.add_to(app);
-  physics.add_to(app);
 
   return report.run(argc, argv, [&] {
-    replication::Reading reading = physics.reading();
+    replication::Reading reading = inputs.physics.reading();
     sampler.apply(reading);
     const auto observations = read_observations(inputs.observations);
     const auto problem =
@@ -98,7 +95,7 @@ int main(int argc, char** argv) {
     auto stages_csv = open_csv(stages_output, replication::stage_columns());
 
     report("{} runs of each sampler, N = {}, seed {}, reading {}, {} observations\n", options.runs,
-           reading.sampler.samples, options.seed, physics.reading_name, observations.size());
+           reading.sampler.samples, options.seed, inputs.physics.reading_name, observations.size());
     io::Progress progress("sampling_study", arms.size() * static_cast<std::size_t>(options.runs),
                           !report.quiet());
     std::vector<std::vector<replication::Run>> results;

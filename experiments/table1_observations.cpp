@@ -52,24 +52,15 @@ void report_parameter(const Report& report, const char* name, const char* unit,
   }
 }
 
-/// One row a value: the least-squares estimate with its intervals, and each value that was tested.
-void write_parameter(OptionalCsv& csv, const std::string& physics, const std::string& parameter,
-                     const std::vector<std::string>& hypotheses, const replication::ParameterAudit& a) {
-  csv.row(parameter, "least squares", digits(a.estimate, 8), a.noise_stated, digits(a.noise_unbiased, 8),
-          digits(a.chi_squared, 8), digits(a.chi_squared_p, 4), 0, "nan", 0, "nan",
-          digits(a.noise_known_95.lower, 8), digits(a.noise_known_95.upper, 8),
-          digits(a.noise_unknown_95.lower, 8), digits(a.noise_unknown_95.upper, 8), physics);
-  for (auto hypothesis = hypotheses.begin(); const auto& t : a.tests) {
-    csv.row(parameter, *hypothesis++, t.value, a.noise_stated, digits(a.noise_unbiased, 8),
-            digits(t.chi_squared, 8), digits(t.chi_squared_p, 4), digits(t.likelihood_ratio, 8),
-            digits(t.likelihood_ratio_p, 4), digits(t.f_statistic, 8), digits(t.f_p, 4), "nan", "nan", "nan",
-            "nan", physics);
+void write_audit(OptionalCsv& csv, const std::string& physics, const replication::Audit& audit) {
+  for (const auto& line : replication::audit_lines(audit)) {
+    const auto& t = line.test;
+    csv.row(line.parameter, line.hypothesis, digits(t.value, 8), line.noise_stated,
+            digits(line.noise_unbiased, 8), digits(t.chi_squared, 8), digits(t.chi_squared_p, 4),
+            digits(t.likelihood_ratio, 8), digits(t.likelihood_ratio_p, 4), digits(t.f_statistic, 8),
+            digits(t.f_p, 4), digits(line.noise_known_95.lower, 8), digits(line.noise_known_95.upper, 8),
+            digits(line.noise_unknown_95.lower, 8), digits(line.noise_unknown_95.upper, 8), physics);
   }
-}
-
-void write_audit(OptionalCsv& csv, const std::string& physics, const replication::Audit& a) {
-  write_parameter(csv, physics, parameter_columns[0], {"stated truth", "alternative"}, a.friction_force);
-  write_parameter(csv, physics, parameter_columns[1], {"stated truth"}, a.natural_frequency);
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ int main(int argc, char** argv) {
   CLI::App app("A verdict on every printed number and claim, with its evidence.", "verdicts");
   Report report(app);
   std::string output;
-  InputFiles inputs;
-  PhysicsOptions physics;
+  ProblemInputs inputs;
   TableOptions table_options;
   RunOptions run_options;
   std::string replicated = "data/generated/replicated_study.csv";
@@ -58,14 +57,12 @@ int main(int argc, char** argv) {
   add_input(app, "--claims", claims, "Claims: CSV with columns id, place, claim");
   add_input(app, "--runs-input", runs, "Runs of a study, written by sampling_study, for C11");
   add_input(app, "--floor", floor, "Areas of independent draws, written by pbox_floor, for C12");
-  inputs.add_observations_to(app);
-  inputs.add_prior_to(app);
+  inputs.add_to(app);
   table_options.add_to(app);
   run_options.add_seed_to(app);
-  physics.add_to(app);
 
   return report.run(argc, argv, [&] {
-    const auto reading = physics.reading();
+    const auto reading = inputs.physics.reading();
     const auto [ids, places, texts] = replication::read_claims(claims);
     const auto printed = read_printed_tables(table3, table4);
     const auto studies = read_studies(replicated, printed);

@@ -9,11 +9,9 @@ ranks = data.'/calibration_ranks.csv'
 names = 'friction_force_n natural_frequency_hz phase_noise_deg frequency_ratio_noise'
 titles = '"Friction force" "Natural frequency" "Phase noise" "Frequency ratio noise"'
 colours = blue.' '.vermillion.' '.green.' '.purple
-# The samplers of the file, in their order; '_' stands for a blank.
-samplers = system(sprintf("awk -F, 'NR > 1 && !seen[$1]++ { gsub(/\"/, \"\", $1); gsub(/ /, \"_\", $1); print $1 }' %s", ranks))
-is(sampler, name) = strcol('parameter') eq name && system_name(strcol('sampler')) eq sampler
-system_name(s) = strstrt(s, ' ') ? s[1:strstrt(s, ' ') - 1].'_'.system_name(s[strstrt(s, ' ') + 1:]) : s
-plain(s) = strstrt(s, '_') ? s[1:strstrt(s, '_') - 1].' '.plain(s[strstrt(s, '_') + 1:]) : s
+call 'figures/distinct.gp' ranks 'sampler'
+samplers = found
+is(sampler, name) = strcol('parameter') eq name && strcol('sampler') eq sampler
 
 panels = words(samplers)
 set xrange [0:1]
@@ -30,7 +28,7 @@ do for [k = 1:panels] {
   set rmargin at screen 0.085 + k * 0.91 / panels - 0.02
   if (k == 1) { set ylabel 'ECDF of the rank − uniform' offset 0.8, 0; set format y '%.2f' } else { unset ylabel; set format y '' }
   set xlabel 'Rank of the truth' offset 0, 0.4
-  set label 1 sprintf('(%s) %s', 'abcd'[k:k], plain(sampler)) at graph 0, 1.05 left font 'Nimbus Sans:Bold,8.5' front
+  set label 1 sprintf('(%s) %s', 'abcd'[k:k], sampler) at graph 0, 1.05 left font 'Nimbus Sans:Bold,8.5' front
   plot ranks using 'edge':(is(sampler, word(names, 1)) ? -column('ecdf_band') : NaN):'ecdf_band' with filledcurves fc rgb '#E4E4E4' fs solid noborder, \
        0 with lines ls BOUNDARY lw 0.8, \
        for [i = 1:4] ranks using 'edge':(is(sampler, word(names, i)) ? column('ecdf_difference') : NaN) with lines lw 1.3 lc rgb word(colours, i) dt i \

@@ -8,12 +8,11 @@ load 'figures/style.gp'
 # gnuplot's strcol() ends at a comma within quotes: these become semicolons.
 table = data.'/benchmark_problems.csv'
 arena = sprintf("< sed 's/\"\\([^\",]*\\), \\([^\"]*\\)\"/\\1; \\2/g' %s", table)
-# Names in the order of the file; '_' stands for a blank.
-problems = system(sprintf("sed 's/\"\\([^\",]*\\), \\([^\"]*\\)\"/\\1; \\2/g' %s | awk -F, 'NR > 1 && !seen[$1]++ { gsub(/ /, \"_\", $1); print $1 }'", table))
-joined(s) = strstrt(s, ' ') ? s[1:strstrt(s, ' ') - 1].'_'.joined(s[strstrt(s, ' ') + 1:]) : s
-spaced(s) = strstrt(s, '_') ? s[1:strstrt(s, '_') - 1].' '.spaced(s[strstrt(s, '_') + 1:]) : s
-plain(s) = strstrt(s, ';') ? spaced(s[1:strstrt(s, ';') - 1].','.s[strstrt(s, ';') + 1:]) : spaced(s)
-place(name) = sum [i = 1:words(problems)] (word(problems, i) eq joined(name) ? i : 0)
+call 'figures/distinct.gp' arena 'problem'
+problems = found
+replaced(s, old, new) = strstrt(s, old) ? s[1:strstrt(s, old) - 1].new.s[strstrt(s, old) + 1:] : s
+plain(s) = replaced(replaced(s, ';', ','), '_', ' ')
+place(name) = sum [i = 1:words(problems)] (word(problems, i) eq name ? i : 0)
 
 samplers = '"published" "better moves" "recommended"'
 titles = '"Published setting" "Better moves" "Recommended: independent draws"'

@@ -14,12 +14,6 @@ side(s, value) = (column('frequency_ratio') < 1) == (s == 1) ? value : NaN
 predicted(s, value) = column('share') >= 0.5 ? side(s, value) : NaN
 of(quantity, value) = strcol('quantity') eq quantity ? value : NaN
 
-stats phases using 'frequency_ratio' nooutput
-r_low = STATS_min
-r_high = STATS_max
-stats ratios using 'driving_frequency_hz' nooutput
-f_low = STATS_min
-f_high = STATS_max
 measured = '#9CC9E5'
 model = '#3E97CB'
 
@@ -27,7 +21,7 @@ set multiplot
 set key at screen 0.53, 0.995 center top maxrows 1 Left reverse samplen 2.2 width -3 font ',7.5'
 set lmargin at screen 0.075
 set rmargin at screen 0.49
-set xrange [r_low:r_high]
+set autoscale xfix
 set yrange [*:*]
 
 set tmargin at screen 0.93
@@ -39,7 +33,7 @@ plot for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('low'))):
      for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('model_low'))):'model_high' with filledcurves fc rgb model, \
      for [s = 0:1] phases using 'frequency_ratio':(side(s, column('boundary_phase_deg'))) with lines ls BOUNDARY, \
      for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('median'))) with lines ls TMCMC, \
-     rows using 'x':(of('phase_deg', column('observed'))) with points pt 7 ps 0.4 lc rgb 'black', \
+     rows using (of('phase_deg', column('x'))):'observed' with points pt 7 ps 0.4 lc rgb 'black', \
      keyentry with points pt 7 ps 0.4 lc rgb 'black' title 'Measured', \
      keyentry with lines ls TMCMC title 'Median', \
      keyentry with filledcurves fc rgb model title '95 % of the model', \
@@ -53,16 +47,15 @@ set xtics format '%g'
 set xlabel 'Frequency ratio {/:Italic r}' offset 0, 0.3
 set ylabel 'Phase less median (deg)' offset 0.9, 0
 set label 1 '(b)'
-plot for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('low') - column('median'))):(column('high') - column('median')) \
+plot for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('low_less_median'))):'high_less_median' \
          with filledcurves fc rgb measured, \
-     for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('model_low') - column('median'))):(column('model_high') - column('median')) \
+     for [s = 0:1] phases using 'frequency_ratio':(predicted(s, column('model_low_less_median'))):'model_high_less_median' \
          with filledcurves fc rgb model, \
      0 with lines ls TMCMC, \
-     rows using 'x':(of('phase_deg', column('observed') - column('median'))) with points pt 7 ps 0.4 lc rgb 'black'
+     rows using (of('phase_deg', column('x'))):'observed_less_median' with points pt 7 ps 0.4 lc rgb 'black'
 
 set lmargin at screen 0.59
 set rmargin at screen 0.99
-set xrange [f_low:f_high]
 set tmargin at screen 0.93
 set bmargin at screen 0.47
 set xtics format ''
@@ -72,7 +65,7 @@ set label 1 '(c)'
 plot ratios using 'driving_frequency_hz':'low':'high' with filledcurves fc rgb measured, \
      ratios using 'driving_frequency_hz':'model_low':'model_high' with filledcurves fc rgb model, \
      ratios using 'driving_frequency_hz':'median' with lines ls TMCMC, \
-     rows using 'x':(of('frequency_ratio', column('observed'))) with points pt 7 ps 0.4 lc rgb 'black'
+     rows using (of('frequency_ratio', column('x'))):'observed' with points pt 7 ps 0.4 lc rgb 'black'
 
 set tmargin at screen 0.43
 set bmargin at screen 0.10
@@ -80,10 +73,10 @@ set xtics format '%g'
 set xlabel 'Driving frequency {/:Italic ω}_b (Hz)' offset 0, 0.3
 set ylabel 'Ratio less median' offset 0.9, 0
 set label 1 '(d)'
-plot ratios using 'driving_frequency_hz':(column('low') - column('median')):(column('high') - column('median')) \
+plot ratios using 'driving_frequency_hz':'low_less_median':'high_less_median' \
          with filledcurves fc rgb measured, \
-     ratios using 'driving_frequency_hz':(column('model_low') - column('median')):(column('model_high') - column('median')) \
+     ratios using 'driving_frequency_hz':'model_low_less_median':'model_high_less_median' \
          with filledcurves fc rgb model, \
      0 with lines ls TMCMC, \
-     rows using 'x':(of('frequency_ratio', column('observed') - column('median'))) with points pt 7 ps 0.4 lc rgb 'black'
+     rows using (of('frequency_ratio', column('x'))):'observed_less_median' with points pt 7 ps 0.4 lc rgb 'black'
 unset multiplot

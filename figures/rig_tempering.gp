@@ -4,16 +4,18 @@ height = 10.5
 load 'figures/style.gp'
 
 stages = data.'/tempering.csv'
-stats stages using 'run' nooutput
-runs = STATS_max + 1
-stats stages using 'stage' nooutput
-last = STATS_max
-stats stages using (column('beta') > 0 ? column('beta') : NaN) nooutput
-smallest = STATS_min
+# The rows are ordered by run, and one scale serves both samplers.
+set table $read
+set logscale y
+plot stages using (runs = column('run') + 1, column('stage')):'beta'
+unset logscale y
+unset table
+beta_low = GPVAL_Y_MIN
 own(sampler, i, from) = \
     strcol('sampler') eq sampler && column('run') == i && column('stage') >= from ? column('beta') : NaN
 
-set xrange [-0.3:last + 0.3]
+set autoscale xfix
+set offsets 0.3, 0.3
 set xtics autofreq
 
 set multiplot
@@ -22,7 +24,7 @@ do for [panel = 1:4] {
   if (panel < 3) {
     from = 1
     set logscale y
-    set yrange [smallest / 3:3]
+    set yrange [beta_low:3]
     set ytics autofreq format '10^{%T}'
     unset mytics
     set tmargin at screen 0.94

@@ -1,40 +1,16 @@
 #include "corner_tables.hpp"
 
-#include <cmath>
-
 #include "statistics/corner.hpp"
+#include "statistics/summary.hpp"
 
 namespace experiments {
-
-namespace {
-
-struct Moments {
-  double mean;
-  double standard_deviation;  // of the weighted samples
-};
-
-Moments moments_of(const std::vector<double>& values, const std::vector<double>& weights) {
-  const auto average = [&](const auto& function) {
-    double sum = 0.0, total = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double weight = weights.empty() ? 1.0 : weights[i];
-      sum += weight * function(values[i]);
-      total += weight;
-    }
-    return sum / total;
-  };
-  const double mean = average([](double x) { return x; });
-  return {mean, std::sqrt(average([&](double x) { return (x - mean) * (x - mean); }))};
-}
-
-}  // namespace
 
 CornerTables::CornerTables(const std::string& joint_path, const std::string& marginals_path,
                            const std::string& summary_path)
     : joint(open_csv(joint_path, {"x_parameter", "y_parameter", "x", "y", "density", "level"})),
       marginals(open_csv(marginals_path, {"parameter", "low", "high", "density"})),
-      summary(open_csv(summary_path,
-                       {"parameter", "mean", "sd", "q025", "q25", "q50", "q75", "q975", "low", "high"})) {}
+      summary(open_csv(summary_path, {"parameter", "mean", "sd", "q025", "q25", "q50", "q75", "q975", "low",
+                                      "high", "tick"})) {}
 
 void CornerTables::write(const CornerSamples& samples, long bins, const Report* report) {
   const auto& [names, columns, weights] = samples;
@@ -44,7 +20,8 @@ void CornerTables::write(const CornerSamples& samples, long bins, const Report* 
   }
   for (std::size_t p = 0; p < names.size(); ++p) {
     ranges.push_back(statistics::panel_range(columns[p], weights));
-    const auto [mean, sd] = moments_of(columns[p], weights);
+    const auto [mean, sd] =
+        weights.empty() ? statistics::moments(columns[p]) : statistics::moments(columns[p], weights);
     std::vector<double> quantiles;
     for (const double level : {0.025, 0.25, 0.5, 0.75, 0.975}) {
       quantiles.push_back(statistics::weighted_quantile(columns[p], weights, level));
@@ -53,7 +30,8 @@ void CornerTables::write(const CornerSamples& samples, long bins, const Report* 
       (*report)("{:<24} {:>12.5g} {:>12.3g} {:>12.5g} {:>12.5g} {:>12.5g}\n", names[p], mean, sd,
                 quantiles[0], quantiles[2], quantiles[4]);
     }
-    summary.row(names[p], mean, sd, quantiles, ranges[p].low, ranges[p].high);
+    summary.row(names[p], mean, sd, quantiles, ranges[p].low, ranges[p].high,
+                statistics::tick_spacing(ranges[p]));
   }
   const auto edge = [&](std::size_t p, double bin) {
     return ranges[p].low + (ranges[p].high - ranges[p].low) * bin / static_cast<double>(bins);

@@ -68,6 +68,12 @@ void InputFiles::add_prior_to(CLI::App& app) {
             "normal_score, and a column for each parameter; without it they are independent");
 }
 
+void ProblemInputs::add_to(CLI::App& app) {
+  add_observations_to(app);
+  add_prior_to(app);
+  physics.add_to(app);
+}
+
 std::string published(const std::string& file) {
   return in_directory("published", file);
 }

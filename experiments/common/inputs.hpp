@@ -43,6 +43,13 @@ struct InputFiles {
   void add_prior_to(CLI::App& app);
 };
 
+/// What most executables begin with: measurements, prior and reading.
+struct ProblemInputs : InputFiles {
+  PhysicsOptions physics;
+
+  void add_to(CLI::App& app);
+};
+
 /// Path of a file in data/published/ of the current directory, or else of the source tree.
 [[nodiscard]] std::string published(const std::string& file);
 

@@ -2,7 +2,6 @@
 
 #include <boost/math/differentiation/autodiff.hpp>
 #include <cmath>
-#include <limits>
 
 #include "friction/angle.hpp"
 
@@ -40,8 +39,6 @@ LaplaceApproximation laplace_approximation(const friction::Observations& observa
   LaplaceApproximation result;
   result.mode = {fit.friction_force.estimate, fit.natural_frequency.estimate, fit.friction_force.noise_ml,
                  fit.natural_frequency.noise_ml};
-  result.standard_deviation.fill(std::numeric_limits<double>::quiet_NaN());
-  result.log_evidence = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t p = 0; p < result.mode.size(); ++p) {
     if (!bounds[p].has_inside(result.mode[p])) {
       return result;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "estimation/least_squares.hpp"
 #include "estimation/parameter_bounds.hpp"
@@ -11,17 +12,23 @@
 
 namespace estimation {
 
-/// Normal approximation at the mode; arrays in the order and the units of friction::Parameter.
+/// Normal approximation at the mode; arrays in the order and the units of friction::Parameter. NaN until it is made.
 struct LaplaceApproximation {
   /// Whether the mode is a regular maximum inside the bounds and below the limit of continuous motion, with
   /// noise levels that the observations determine (BlockFit::fitted_noise). If not, standard_deviation and log_evidence are NaN.
   bool regular = false;
-  std::array<double, friction::parameter_count> mode{};                ///< maximum of the likelihood
-  std::array<double, friction::parameter_count> standard_deviation{};  ///< H_ii^(-1/2)
-  double log_evidence = 0.0;  ///< log P(D), uniform priors normalised
+  /// Maximum of the likelihood.
+  std::array<double, friction::parameter_count> mode{nan, nan, nan, nan};
+  /// H_ii^(-1/2).
+  std::array<double, friction::parameter_count> standard_deviation{nan, nan, nan, nan};
+  /// log P(D), uniform priors normalised.
+  double log_evidence = nan;
 
   /// Normal density of one parameter, per its unit; NaN unless regular.
   [[nodiscard]] double marginal_density(std::size_t parameter, double x) const;
+
+ private:
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Approximates the posterior under uniform priors on the bounds by a normal density at the mode, which is the

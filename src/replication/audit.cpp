@@ -12,6 +12,7 @@
 #include "estimation/least_squares.hpp"
 #include "friction/angle.hpp"
 #include "friction/likelihood.hpp"
+#include "replication/columns.hpp"
 
 namespace replication {
 
@@ -154,6 +155,27 @@ Audit audit(const friction::Observations& observations, const Truth& truth, doub
   a.friction_force = phase.audit({truth.friction_force_n, alternative_n});
   a.natural_frequency = frequency.audit({truth.natural_frequency_hz});
   return a;
+}
+
+std::vector<AuditLine> audit_lines(const Audit& audit) {
+  const ConfidenceInterval none{.lower = not_a_number, .upper = not_a_number};
+  std::vector<AuditLine> lines;
+  const auto add = [&](const std::string& parameter, const std::vector<const char*>& hypotheses,
+                       const ParameterAudit& a) {
+    const PointTest fit{.value = a.estimate,
+                        .chi_squared = a.chi_squared,
+                        .chi_squared_p = a.chi_squared_p,
+                        .likelihood_ratio_p = not_a_number,
+                        .f_p = not_a_number};
+    lines.push_back({parameter, "least squares", a.noise_stated, a.noise_unbiased, fit, a.noise_known_95,
+                     a.noise_unknown_95});
+    for (std::size_t i = 0; i < a.tests.size(); ++i) {
+      lines.push_back({parameter, hypotheses[i], a.noise_stated, a.noise_unbiased, a.tests[i], none, none});
+    }
+  };
+  add(parameter_columns[friction::friction_force], {"stated truth", "alternative"}, audit.friction_force);
+  add(parameter_columns[friction::natural_frequency], {"stated truth"}, audit.natural_frequency);
+  return lines;
 }
 
 }  // namespace replication

@@ -2,6 +2,7 @@
 /// Audit of a table of observations: does it agree with the truth and the noise levels stated for it?
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "estimation/least_squares.hpp"
@@ -66,5 +67,19 @@ struct Audit {
 ///         std::runtime_error if least squares does not converge.
 [[nodiscard]] Audit audit(const friction::Observations& observations, const Truth& truth,
                           double alternative_n, const friction::Physics& physics);
+
+/// A line of the table of an audit: a value of a parameter and how it fits.
+struct AuditLine {
+  std::string parameter;   ///< one of parameter_columns
+  std::string hypothesis;  ///< "least squares", "stated truth" or "alternative"
+  double noise_stated;     ///< of ParameterAudit
+  double noise_unbiased;   ///< likewise
+  PointTest test;          ///< of least squares without probabilities of the likelihood ratio and of F
+  ConfidenceInterval noise_known_95;    ///< around the least-squares estimate; NaN in the other lines
+  ConfidenceInterval noise_unknown_95;  ///< likewise
+};
+
+/// Of each parameter the least-squares estimate, then the values that were tested.
+[[nodiscard]] std::vector<AuditLine> audit_lines(const Audit& audit);
 
 }  // namespace replication

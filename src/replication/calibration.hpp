@@ -34,7 +34,7 @@ struct CalibrationResult {
 
 /// Parameters from the prior, and observations from them: the nominal ratio and the phase of each row of the
 /// design are drawn anew, measured ratio and driving frequency stay. Pairs without continuous motion or with a nominal ratio
-/// that is not positive are drawn again; since the data alone decide of the latter, the ranks stay uniform.
+/// that is not positive are drawn again; since the latter depends on the data alone, the ranks stay uniform.
 struct SimulatedPair {
   Eigen::VectorXd parameters;           ///< in the order of friction::Parameter
   friction::Observations observations;  ///< drawn from the model at these

@@ -49,7 +49,7 @@ struct PhaseCheck {
 /// \param points  2 or more
 [[nodiscard]] PhaseCheck check_phase(double frequency_ratio, double driving_force_n, long points);
 
-/// What the published discretisation is off at one frequency ratio.
+/// The error of the published discretisation at one frequency ratio.
 struct DiscretisationError {
   double frequency_ratio = 0.0;  ///< driving over natural frequency
   double phase_deg = 0.0;        ///< published phase minus the exact one

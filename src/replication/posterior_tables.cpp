@@ -1,5 +1,6 @@
 #include "replication/posterior_tables.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -19,6 +20,28 @@ estimation::Interval drawn_range(const estimation::TabulatedDensity& exact) {
 }
 
 }  // namespace
+
+std::vector<ParameterEstimate> parameter_estimates(const estimation::ExactPosterior& posterior,
+                                                   const estimation::LaplaceApproximation& laplace,
+                                                   const estimation::LeastSquaresFit& fit) {
+  const std::array<double, friction::parameter_count> least_squares = {
+      fit.friction_force.estimate, fit.natural_frequency.estimate, fit.friction_force.noise_ml,
+      fit.natural_frequency.noise_ml};
+  std::vector<ParameterEstimate> all;
+  for (std::size_t p = 0; p < friction::parameter_count; ++p) {
+    const auto& exact = marginal(posterior, p);
+    ParameterEstimate of{.mean = exact.mean(),
+                         .standard_deviation = exact.standard_deviation(),
+                         .quantiles = {},
+                         .laplace_mode = laplace.mode[p],
+                         .laplace_standard_deviation = laplace.standard_deviation[p],
+                         .least_squares = least_squares[p]};
+    std::transform(ParameterEstimate::levels.begin(), ParameterEstimate::levels.end(), of.quantiles.begin(),
+                   [&](double level) { return exact.quantile(level); });
+    all.push_back(of);
+  }
+  return all;
+}
 
 std::vector<QuantityError> errors_of(const GroupedColumns& runs,
                                      const estimation::ExactPosterior& posterior) {

@@ -2,6 +2,7 @@
 /// What a figure or table shows of the exact posterior, and how far the samplers are from it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,26 @@
 
 namespace replication {
 
-/// What the runs of one sampler are off in one quantity.
+/// What is known of one parameter, in its unit.
+struct ParameterEstimate {
+  /// Levels of the quantiles.
+  static constexpr std::array<double, 5> levels{0.025, 0.25, 0.5, 0.75, 0.975};
+  /// Exact.
+  double mean, standard_deviation;
+  /// Exact, at the levels.
+  std::array<double, 5> quantiles;
+  /// Of the normal approximation; NaN where there is none.
+  double laplace_mode, laplace_standard_deviation;
+  /// Least squares; of a noise level the estimate of maximum likelihood.
+  double least_squares;
+};
+
+/// One a parameter, in the order of friction::Parameter.
+[[nodiscard]] std::vector<ParameterEstimate> parameter_estimates(
+    const estimation::ExactPosterior& posterior, const estimation::LaplaceApproximation& laplace,
+    const estimation::LeastSquaresFit& fit);
+
+/// The error of one sampler in one quantity, from its runs.
 struct QuantityError {
   /// As in the runs.
   std::string sampler;

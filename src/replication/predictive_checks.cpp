@@ -41,6 +41,30 @@ std::vector<estimation::PredictiveDraw> predictive_draws(const estimation::Exact
   return draws;
 }
 
+estimation::Interval curve_range(const std::vector<double>& measured) {
+  const auto [low, high] = std::minmax_element(measured.begin(), measured.end());
+  const double margin = 0.1 * (*high > *low ? *high - *low : *high);
+  return {std::max(*low - margin, 0.5 * *low), *high + margin};
+}
+
+std::vector<CutOff> cut_offs(const estimation::ExactPosterior& posterior) {
+  std::vector<CutOff> found;
+  for (std::size_t p = 0; p < friction::parameter_count; ++p) {
+    const auto parameter = static_cast<friction::Parameter>(p);
+    const auto& marginal = posterior.marginal(parameter);
+    double largest = 0.0;
+    for (const double x : marginal.nodes()) {
+      largest = std::max(largest, marginal.density(x));
+    }
+    for (const double bound : {marginal.lower(), marginal.upper()}) {
+      if (marginal.density(bound) > 0.1 * largest) {
+        found.push_back({parameter, bound});
+      }
+    }
+  }
+  return found;
+}
+
 std::vector<RowPrediction> predict_rows(const friction::Observations& measured,
                                         const std::vector<estimation::PredictiveDraw>& draws,
                                         const PosteriorOf& posterior_of, const friction::Physics& physics,

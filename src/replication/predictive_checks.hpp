@@ -23,6 +23,20 @@ struct PredictiveDrawing {
 [[nodiscard]] std::vector<estimation::PredictiveDraw> predictive_draws(
     const estimation::ExactPosterior& posterior, const PredictiveDrawing& drawing, std::uint32_t stream);
 
+/// Where a curve of predictions is drawn: the range of the measured places and a tenth of its width beyond on each side, or of
+/// their size if they are all one; from half the smallest on at least.
+/// \param measured  positive, not empty
+[[nodiscard]] estimation::Interval curve_range(const std::vector<double>& measured);
+
+/// An end of a marginal.
+struct CutOff {
+  friction::Parameter parameter;  ///< whose marginal it is
+  double bound;                   ///< in the unit of the parameter
+};
+/// The ends at which the prior or the limit of continuous motion cuts the posterior off: its density there is more than a
+/// tenth of the largest.
+[[nodiscard]] std::vector<CutOff> cut_offs(const estimation::ExactPosterior& posterior);
+
 /// A measured quantity and what is predicted for it.
 struct MeasurementPrediction {
   double observed;  ///< the phase as the turn closest to the median, deg; the nominal frequency ratio

@@ -1,10 +1,14 @@
 #include "replication/replication.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
 
 #include "errors/invalid_value.hpp"
+#include "tmcmc/option_table.hpp"
 
 namespace replication {
 
@@ -59,6 +63,28 @@ std::vector<StudySummary> run_study(const tmcmc::Problem& problem, const std::ve
         summarise(options.study, arms[a].name, run_arm(problem, arms[a], a, options), options.threads));
   }
   return summaries;
+}
+
+std::string study_key(const Reading& reading, const std::vector<Arm>& arms, const StudyOptions& options,
+                      const friction::Observations& observations, const tmcmc::BoxPrior& prior) {
+  std::string text = fmt::format("runs {} seed {}", options.runs, options.seed);
+  for (const auto& arm : arms) {
+    text += fmt::format(" | {}", arm.name);
+    for (const auto& [name, value] : tmcmc::sample_settings(arm.options)) {
+      text += fmt::format(" {}={}", name, value);
+    }
+  }
+  text +=
+      fmt::format(" | {} {} {} {}", reading.physics.driving_force_n, static_cast<int>(reading.physics.limit),
+                  static_cast<int>(reading.physics.phase), reading.infeasible_log_likelihood);
+  for (const auto* column : {&observations.nominal_ratio, &observations.measured_ratio,
+                             &observations.driving_frequency_hz, &observations.phase_deg}) {
+    text += fmt::format(" | {}", fmt::join(*column, " "));
+  }
+  for (Eigen::Index j = 0; j < prior.dimension(); ++j) {
+    text += fmt::format(" | {} {}", prior.lower()[j], prior.upper()[j]);
+  }
+  return text;
 }
 
 std::string format_iterations(const std::map<tmcmc::Index, tmcmc::Index>& counts) {

@@ -34,6 +34,11 @@ struct StudySummary {
 [[nodiscard]] std::vector<StudySummary> run_study(const tmcmc::Problem& problem, const std::vector<Arm>& arms,
                                                   const StudyOptions& options);
 
+/// Everything but the number of the study that its summaries depend on, as one line: a journal goes on only under the same.
+[[nodiscard]] std::string study_key(const Reading& reading, const std::vector<Arm>& arms,
+                                    const StudyOptions& options, const friction::Observations& observations,
+                                    const tmcmc::BoxPrior& prior);
+
 /// "9:2 10:45 11:3": number of iterations and of runs.
 [[nodiscard]] std::string format_iterations(const std::map<tmcmc::Index, tmcmc::Index>& counts);
 

@@ -35,9 +35,13 @@ double total_weight(std::span<const double> values, std::span<const double> weig
   return total;
 }
 
-void require_grid(const Range& range, long bins) {
+void require_width(const Range& range) {
   require(std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high, "range", range.low,
           "a finite range with low < high");
+}
+
+void require_grid(const Range& range, long bins) {
+  require_width(range);
   require(bins >= 1, "bins", static_cast<double>(bins), "at least one");
 }
 
@@ -87,6 +91,15 @@ Range panel_range(std::span<const double> values, std::span<const double> weight
   const double margin = 0.05 * (high - low);
   return {std::max(low - margin, *std::min_element(values.begin(), values.end())),
           std::min(high + margin, *std::max_element(values.begin(), values.end()))};
+}
+
+double tick_spacing(const Range& range) {
+  require_width(range);
+  const double third = range.high / 3.0 - range.low / 3.0;
+  const double exponent = std::floor(std::log10(third));
+  const double leading = third / std::pow(10.0, exponent);
+  const double rounded = leading < 1.5 ? 1.0 : leading < 3.5 ? 2.0 : leading < 7.5 ? 5.0 : 10.0;
+  return exponent < 0.0 ? rounded / std::pow(10.0, -exponent) : rounded * std::pow(10.0, exponent);
 }
 
 std::vector<double> marginal_density(std::span<const double> values, std::span<const double> weights,

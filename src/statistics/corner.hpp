@@ -24,6 +24,10 @@ struct Range {
 /// \throws as weighted_quantile
 [[nodiscard]] Range panel_range(std::span<const double> values, std::span<const double> weights);
 
+/// Distance between the tics of a panel: 1, 2 or 5 times a power of ten, whichever divides the range best into three.
+/// \throws errors::InvalidValue for a range that is not finite or has no width
+[[nodiscard]] double tick_spacing(const Range& range);
+
 /// Probability density in each of equal bins over the range, of all the weight, also what lies outside.
 /// \throws as weighted_quantile; for a range without width or without bins
 [[nodiscard]] std::vector<double> marginal_density(std::span<const double> values,

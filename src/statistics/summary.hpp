@@ -43,7 +43,7 @@ struct Interval95 {
 /// Central 95 % interval of the draws.
 [[nodiscard]] Interval95 central_95(std::vector<double> null);
 
-/// What estimates of independent runs are off, against the exact value; in the unit of the
+/// Errors of the estimates of independent runs against the exact value, in the unit of the
 /// estimates.
 struct EstimateError {
   /// Of the estimates.

@@ -28,22 +28,11 @@ std::string text(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-Settings settings(const tmcmc::Options& options) {
-  Settings all;
-  for (const auto& option : tmcmc::option_table()) {
-    const auto value = tmcmc::option_value(options, option.name);
-    if (option.changes_samples && value) {
-      all.emplace_back(option.name, *value);
-    }
-  }
-  return all;
-}
-
 Settings settings(const RunDescription& run) {
   if (run.model.find_first_of("\n\r") != std::string::npos) {
     throw errors::InvalidValue("description of the model", io::printable(run.model), "one line");
   }
-  Settings all = settings(run.options);
+  Settings all = tmcmc::sample_settings(run.options);
   const auto& [seed, study, arm, index] = run.key;
   all.emplace_back("seed", text(seed));
   all.emplace_back("study", text(study));

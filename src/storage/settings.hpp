@@ -29,11 +29,7 @@ struct RunDescription {
 /// Name and value, the latter one line; numbers in digits that read back as the same double.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Each option that has a meaning under the others, but for those on which no number of a stage
-/// depends (OptionInfo::changes_samples).
-[[nodiscard]] Settings settings(const tmcmc::Options& options);
-
-/// The options, seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no
+/// The options (tmcmc::sample_settings), seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no
 /// box, and model.
 /// \throws errors::InvalidValue if the model's description is not one line.
 [[nodiscard]] Settings settings(const RunDescription& run);

@@ -160,6 +160,17 @@ std::optional<std::string> option_value(const Options& options, std::string_view
   return text;
 }
 
+std::vector<std::pair<std::string, std::string>> sample_settings(const Options& options) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const auto& option : option_table()) {
+    const auto value = option_value(options, option.name);
+    if (option.changes_samples && value) {
+      all.emplace_back(option.name, *value);
+    }
+  }
+  return all;
+}
+
 std::optional<std::string> normalised_option(std::string_view name, std::string_view value) {
   std::optional<std::string> text;
   Options scratch;

@@ -30,6 +30,10 @@ struct OptionText : OptionInfo {
 /// \throws errors::InvalidValue if there is no option of this name.
 [[nodiscard]] std::optional<std::string> option_value(const Options& options, std::string_view name);
 
+/// Name and value of each option that has a meaning under the others and on which a number of a run depends
+/// (OptionInfo::changes_samples).
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> sample_settings(const Options& options);
+
 /// The text of a value as option_value() would give it; nothing if the option does not take it.
 /// \throws errors::InvalidValue if there is no option of this name.
 [[nodiscard]] std::optional<std::string> normalised_option(std::string_view name, std::string_view value);

@@ -226,4 +226,23 @@ TEST_CASE("Noise levels that are not positive are refused") {
   CHECK_THROWS_AS(audit(table1(), {.frequency_ratio_noise = -0.01}, 1.0, exact), errors::InvalidValue);
 }
 
+TEST_CASE("The lines of an audit: least squares with its intervals, then the values tested") {
+  const auto a = audit(table1(), {}, 1.0, exact);
+  const auto lines = replication::audit_lines(a);
+  REQUIRE(lines.size() == 5);
+  CHECK(lines[0].parameter == "friction_force_n");
+  CHECK(lines[0].hypothesis == "least squares");
+  CHECK(lines[0].test.value == a.friction_force.estimate);
+  CHECK(lines[0].test.chi_squared_p == a.friction_force.chi_squared_p);
+  CHECK(std::isnan(lines[0].test.f_p));
+  CHECK(lines[0].noise_known_95.upper == a.friction_force.noise_known_95.upper);
+  CHECK(lines[1].hypothesis == "stated truth");
+  CHECK(lines[1].test.f_p == a.friction_force.tests[0].f_p);
+  CHECK(std::isnan(lines[1].noise_known_95.lower));
+  CHECK(lines[2].hypothesis == "alternative");
+  CHECK(lines[2].test.value == 1.0);
+  CHECK(lines[4].parameter == "natural_frequency_hz");
+  CHECK(lines[4].noise_stated == 0.01);
+}
+
 }  // namespace

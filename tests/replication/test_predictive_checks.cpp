@@ -66,3 +66,24 @@ TEST_CASE("one row has no others to be predicted from", "[predictive]") {
   CHECK(std::isnan(rows[0].phase.left_out));
   CHECK(rows[0].phase.probability > 0.0);
 }
+
+TEST_CASE("a curve reaches a tenth beyond the measurements, but stays positive", "[predictive]") {
+  const auto range = curve_range({2.0, 1.0, 1.5});
+  CHECK_THAT(range.lower, WithinAbs(0.9, 1e-15));
+  CHECK_THAT(range.upper, WithinAbs(2.1, 1e-15));
+  CHECK(curve_range({0.1, 5.0}).lower == 0.05);
+  CHECK_THAT(curve_range({3.0}).upper, WithinAbs(3.3, 1e-15));
+}
+
+TEST_CASE("a bound that cuts the posterior off is found, one in its tail is not", "[predictive]") {
+  const auto measured = generate_observations({}, nominal_ratios(), physics, 1);
+  const friction::Likelihood likelihood(measured, physics);
+  estimation::ParameterBounds bounds{{{0.01, 10.0}, {0.01, 10.0}, {0.001, 10.0}, {0.001, 1.0}}};
+  CHECK(cut_offs(estimation::ExactPosterior(likelihood, bounds)).empty());
+  const double median = posterior_of(measured).marginal(friction::natural_frequency).quantile(0.5);
+  bounds[friction::natural_frequency].upper = median;
+  const auto cuts = cut_offs(estimation::ExactPosterior(likelihood, bounds));
+  REQUIRE(cuts.size() == 1);
+  CHECK(cuts[0].parameter == friction::natural_frequency);
+  CHECK(cuts[0].bound == median);
+}

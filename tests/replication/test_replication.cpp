@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "friction_study.hpp"
 #include "replication/published.hpp"
 #include "replication/replication.hpp"
 
@@ -61,6 +62,25 @@ TEST_CASE("a study is a function of its number, not of threads or order", "[repl
   CHECK(first[0].sampler == "TMCMC");
   CHECK(first[1].sampler == "TMCMC-II");
   CHECK(first[0].study == 3);
+}
+
+TEST_CASE("the key of a study names each number that it depends on", "[replication]") {
+  const auto key_of = [](const Reading& reading, StudyOptions options, friction::Observations observations) {
+    return study_key(reading, paper_arms(reading), options, observations, test_data::table2(reading));
+  };
+  const auto published = reading(ReadingName::as_published);
+  const auto key = key_of(published, {}, test_data::table1());
+  CHECK(key == key_of(published, {.study = 7, .threads = 3}, test_data::table1()));
+  CHECK(key.find('\n') == std::string::npos);
+  CHECK(key != key_of(published, {.seed = 2}, test_data::table1()));
+  CHECK(key != key_of(published, {.runs = 49}, test_data::table1()));
+  CHECK(key != key_of(reading(ReadingName::corrected), {}, test_data::table1()));
+  auto rig = published;
+  rig.physics.driving_force_n = 2.4;
+  CHECK(key != key_of(rig, {}, test_data::table1()));
+  auto other = test_data::table1();
+  other.phase_deg[9] += 1e-9;
+  CHECK(key != key_of(published, {}, other));
 }
 
 TEST_CASE("a summary holds what the runs say", "[replication]") {

@@ -113,6 +113,23 @@ TEST_CASE_METHOD(CsvFixture, "errors against the exact posterior, by hand", "[ta
   CHECK(std::isnan(errors[17].effective_size));
 }
 
+TEST_CASE("estimates of the parameters: exact, Laplace and least squares", "[tables]") {
+  const auto fit = estimation::fit_least_squares(test_data::table1(), {});
+  const auto rows = parameter_estimates(paper_posterior(), {}, fit);
+  REQUIRE(rows.size() == 4);
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const auto& exact = paper_posterior().marginal(static_cast<friction::Parameter>(p));
+    CHECK(rows[p].mean == exact.mean());
+    CHECK(rows[p].standard_deviation == exact.standard_deviation());
+    CHECK(rows[p].quantiles[0] == exact.quantile(0.025));
+    CHECK(rows[p].quantiles[4] == exact.quantile(0.975));
+    CHECK(std::isnan(rows[p].laplace_mode));  // none was made
+    CHECK(std::isnan(rows[p].laplace_standard_deviation));
+  }
+  CHECK(rows[1].least_squares == fit.natural_frequency.estimate);
+  CHECK(rows[2].least_squares == fit.friction_force.noise_ml);
+}
+
 TEST_CASE("marginals and histograms are densities", "[tables]") {
   estimation::LaplaceApproximation laplace;
   laplace.mode = {1.0, 3.0, 2.0, 0.02};

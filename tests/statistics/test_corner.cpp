@@ -46,6 +46,20 @@ TEST_CASE("the range of a panel holds the weight and stays within the values", "
   CHECK(panel_range(std::vector<double>(2, 0.0), {}).low == -0.5);
 }
 
+TEST_CASE("tics are a round distance apart, about a third of the range", "[corner]") {
+  CHECK(tick_spacing({0.0, 3.0}) == 1.0);
+  CHECK(tick_spacing({-1.0, 4.4}) == 2.0);
+  CHECK(tick_spacing({0.0, 12.0}) == 5.0);
+  CHECK(tick_spacing({0.0, 24.0}) == 10.0);
+  CHECK(tick_spacing({0.981, 0.9872}) == 0.002);
+  CHECK(tick_spacing({1e5, 7e5}) == 200000.0);
+  for (double width = 1e-7; width < 1e7; width *= 1.03) {
+    const double tics = width / tick_spacing({0.0, width});
+    CHECK((tics > 2.0 && tics < 5.3));  // thirds from 0.7 to 1.75 times the distance
+  }
+  CHECK_THROWS_AS(tick_spacing({1.0, 1.0}), errors::InvalidValue);
+}
+
 TEST_CASE("a marginal density has the weight of its bins, and the upper end belongs to the last",
           "[corner]") {
   const std::vector<double> values{0.0, 0.5, 1.5, 2.0, 9.0};
