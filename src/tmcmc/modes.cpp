@@ -8,6 +8,7 @@
 
 #include "errors/invalid_value.hpp"
 #include "tmcmc/detail/mode_graph.hpp"
+#include "tmcmc/detail/neighbours.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
 #include "tmcmc/diagnostics.hpp"
 

@@ -36,7 +36,7 @@ struct State : Walkers {
   Index stage = 0;
   /// Log-likelihoods so far.
   Index evaluations = 0;
-  /// What the rules that adapt it have come to; 0 before the first stage.
+  /// The factor of the proposal covariance, as Options::scale_rule has adapted it; 0 before the first stage.
   double proposal_scale = 0.0;
   /// Without Options::diagnose the number of chains alone.
   Genealogy genealogy;
@@ -202,7 +202,7 @@ struct Result {
   Evidence evidence;
   /// Empty, as is evidence, without Options::diagnose.
   Diagnostics diagnostics;
-  /// Of independent draws alone; nothing too where TMCMC took over from the searches.
+  /// Only with the finish IndependentDraws, unless TMCMC took over from the searches.
   std::optional<Measurement> measurement;
 };
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "tmcmc/detail/neighbours.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
 
 namespace tmcmc::detail {
@@ -34,64 +35,6 @@ class Sets {
  private:
   std::vector<Index> parents_;
 };
-
-/// Squared distances of one point to all.
-void distances_from(const Population& white, Index i, std::vector<double>& squared) {
-  std::fill(squared.begin(), squared.end(), 0.0);
-  for (Index j = 0; j < white.cols(); ++j) {
-    const double* x = white.col(j).data();
-    for (std::size_t k = 0; k < squared.size(); ++k) {
-      const double difference = x[k] - x[i];
-      squared[k] += difference * difference;
-    }
-  }
-}
-
-/// Each point's nearest neighbours and the distance to the last of them.
-struct Neighbours {
-  std::vector<std::vector<Index>> of;  // sorted by index
-  std::vector<double> reach;
-};
-
-Neighbours neighbours_of(const Population& white, Index count) {
-  const auto n = at(white.rows());
-  Neighbours result{std::vector<std::vector<Index>>(n), std::vector<double>(n)};
-  std::vector<double> squared(n);
-  std::vector<double> sorted(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    distances_from(white, static_cast<Index>(i), squared);
-    squared[i] = -1.0;  // itself comes first
-    sorted = squared;
-    std::nth_element(sorted.begin(), sorted.begin() + count, sorted.end());
-    const double last = sorted[at(count)];
-    result.reach[i] = std::sqrt(last);
-    auto room = count - std::count_if(squared.begin(), squared.end(), [&](double x) { return x < last; }) + 1;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (k != i && (squared[k] < last || (squared[k] == last && room-- > 0))) {  // of equals the first
-        result.of[i].push_back(static_cast<Index>(k));
-      }
-    }
-  }
-  return result;
-}
-
-/// Coordinates in which neighbours lie in all directions at like distances: the scatter within modes is isotropic, however far these
-/// are from each other (Art, Gnanadesikan and Kettenring 1982).
-Population with_isotropic_neighbours(const Population& white, const Neighbours& neighbours) {
-  const Index d = white.cols();
-  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(d, d);
-  for (Index i = 0; i < white.rows(); ++i) {
-    const double reach = neighbours.reach[at(i)];
-    for (const Index k : neighbours.of[at(i)]) {
-      for (Index j = 0; j < d; ++j) {
-        for (Index l = 0; l <= j; ++l) {
-          scatter(j, l) += (white(i, j) - white(k, j)) / reach * ((white(i, l) - white(k, l)) / reach);
-        }
-      }
-    }
-  }
-  return whitened(white, cholesky_factor(scatter / static_cast<double>(white.rows())));
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -241,20 +184,6 @@ std::vector<Part> heavy_parts(const WeightedPoints& points, const Neighbours& ne
 }
 
 }  // namespace
-
-Population whitened(const Population& points, const Eigen::MatrixXd& factor) {
-  Population white(points.rows(), points.cols());
-  for (Index j = 0; j < points.cols(); ++j) {
-    for (Index i = 0; i < points.rows(); ++i) {
-      double sum = points(i, j);
-      for (Index k = 0; k < j; ++k) {
-        sum -= factor(j, k) * white(i, k);
-      }
-      white(i, j) = factor(j, j) > 0.0 ? sum / factor(j, j) : 0.0;
-    }
-  }
-  return white;
-}
 
 std::vector<Index> separate_parts(WeightedPoints points, const ModeOptions& options) {
   constexpr int refinements = 4;

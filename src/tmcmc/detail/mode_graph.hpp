@@ -14,9 +14,6 @@ struct WeightedPoints {
   std::vector<double> weights;  ///< n, positive, with the sum 1
 };
 
-/// The points times the inverse of a lower triangular factor, n x d; 0 where its diagonal is.
-[[nodiscard]] Population whitened(const Population& points, const Eigen::MatrixXd& factor);
-
 /// The part of each point, numbered from 0, as find_modes() tells them apart.
 [[nodiscard]] std::vector<Index> separate_parts(WeightedPoints points, const ModeOptions& options);
 
