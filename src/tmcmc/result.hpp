@@ -36,7 +36,7 @@ struct State : Walkers {
   Index stage = 0;
   /// Log-likelihoods so far.
   Index evaluations = 0;
-  /// The factor of the proposal covariance, as Options::scale_rule has adapted it; 0 before the first stage.
+  /// Scale gamma of the proposals, as Options::scale_rule has adapted it; 0 before the first stage.
   double proposal_scale = 0.0;
   /// Without Options::diagnose the number of chains alone.
   Genealogy genealogy;
