@@ -25,7 +25,7 @@ struct NoFinish {
 ///    fitted to them and drawn from, and so on from the prior to beta = 1. With N_eff = f N the
 ///    population N is a twentieth of what a search has beyond 600 evaluations, at most 200 draws or
 ///    40 d, whichever is more; CoV = c is f = 1 / (1 + c^2), the same rule. There is a new fit after
-///    each N/2 draws.
+///    each N/2 draws, but no fewer than min(N, 100).
 /// 2. One density q is fitted to the draws of both. Defensive shares of the prior and of the
 ///    tempered fits keep the weights bounded where the fit is too narrow. Trial draws, a sixth of
 ///    what is left, tell whether it overlaps with the posterior; if not, they serve another fit.

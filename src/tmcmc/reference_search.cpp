@@ -114,10 +114,11 @@ TemperedPoints tempered_points(const ReferenceDraws& draws, double target) {
 
 namespace {
 
-/// Fits the draws so far: the number of components is chosen where they have doubled and where beta has come to 1.
+/// Fits the draws so far: the number of components is chosen where they have grown enough and where beta has come to 1.
 void fit_round(const TemperedPoints& tempered, const SearchOptions& options, const StreamKey& key,
                std::uint32_t stage, Index& rows_at_choice, Search& search) {
-  constexpr double growth = 2.0;
+  const double growth =
+      options.target < 100.0 ? 1.4 : 2.0;  // few draws lose modes to fits of too few components
   constexpr int iterations_from_last_fit = 3;
   constexpr double tempered_below = 0.3;
   const Index rows = search.draws.z.rows();

@@ -137,7 +137,7 @@ enum class WarningKind {
   /// Independent draws: k-hat is above min(1 - 1 / log10(n), 0.7); the error of the log-evidence is
   /// a lower bound.
   heavy_weights,
-  /// Independent draws: beta was chosen by fewer than 30 effective draws, or by fewer than 25 for
+  /// Independent draws: beta was chosen by fewer than 40 effective draws, or by fewer than 25 for
   /// each of several separate modes; another mode may have been lost.
   few_draws_a_mode
 };

@@ -40,7 +40,7 @@ double effective_share(const Criterion& criterion) {
 
 /// What one of two searches gets: populations of 200 draws, or 40 d, where the evaluations suffice for 20 of them besides 600
 /// draws. Smaller ones are quicker at the posterior, but lose modes. A fit after each half of a population wastes fewer draws
-/// on an old one.
+/// on an old one, but a fit after fewer than 100 loses modes.
 SearchOptions search_options(const Options& options, const IndependentDraws& settings, Index dimension) {
   const auto all = static_cast<double>(options.evaluation_budget);
   const auto d = static_cast<double>(dimension);
@@ -50,7 +50,8 @@ SearchOptions search_options(const Options& options, const IndependentDraws& set
   const double population = std::clamp((evaluations - 600.0) / 20.0, least, most);
   const double share = effective_share(options.criterion);
   return {.evaluations = static_cast<Index>(evaluations),
-          .round = static_cast<Index>(std::max(0.5 * population, evaluations / 48.0)),
+          .round = static_cast<Index>(
+              std::max({0.5 * population, std::min(population, 100.0), evaluations / 48.0})),
           .target = share * population,
           .most_target = share * most,
           .enough = 15.0 * share * population,
@@ -133,7 +134,7 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
     warn(Kind::searches_differ, "the product of the posterior masses that each of two searches has missed",
          missed_by_both, "above", most_missed_by_both, advice);
   }
-  const double fewest_a_mode = measured.modes > 1 ? 25.0 : 30.0;
+  const double fewest_a_mode = measured.modes > 1 ? 25.0 : 40.0;
   if (!(measured.draws_a_mode >= fewest_a_mode)) {
     warn(Kind::few_draws_a_mode,
          measured.modes > 1 ? "the number of effective draws that chose beta, for each of several modes,"
