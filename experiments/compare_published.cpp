@@ -33,6 +33,11 @@ std::string place_of(const Cell& cell) {
   return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
 }
 
+/// Blank where there is no number.
+std::string number_text(double x, const char* format = "{:.5g}") {
+  return std::isnan(x) ? "" : fmt::format(fmt::runtime(format), x);
+}
+
 /// The report: each table with a row for each cell.
 std::string text_of(const std::vector<Cell>& cells) {
   std::string text;
@@ -43,8 +48,11 @@ std::string text_of(const std::vector<Cell>& cells) {
       text += fmt::format("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column",
                           "printed", "ours", "difference", "among replicated studies");
     }
-    text += fmt::format("  {:<24} {:<22} {:>12.5g} {:>12.5g} {:>+12.3g}  {}\n", cell.row, cell.column,
-                        cell.printed, cell.ours, replication::difference(cell), place_of(cell));
+    const std::string place = place_of(cell);
+    text +=
+        fmt::format("  {:<24} {:<22} {:>12} {:>12} {:>12}{}{}\n", cell.row, cell.column,
+                    number_text(cell.printed), number_text(cell.ours),
+                    number_text(replication::difference(cell), "{:+.3g}"), place.empty() ? "" : "  ", place);
   }
   return text;
 }
