@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
     for (const auto& cut :
          prior.is_box() ? replication::cut_offs(posterior) : std::vector<replication::CutOff>()) {
       report("warning: the prior or the limit of continuous motion cuts the posterior of {} off at {:.4g}\n",
-             parameter_columns[cut.parameter], cut.bound);
+             parameter_columns[static_cast<std::size_t>(cut.parameter)], cut.bound);
     }
     io::commit_all(csv, frequencies, predictions);
   });
