@@ -2,6 +2,7 @@
 # A model of one's own: the example, the same model as a program, programs that fail in every way, a run that is killed.
 source "$(dirname "$0")/support.sh"
 cp -r "$source/data/examples" data/examples
+mkdir examples && cp "$source/examples/um_bridge_server.py" examples/
 export TMPDIR=$work/tmp
 mkdir -p "$TMPDIR"
 own="$bin/own_model --evaluations 2600 --quiet"
@@ -66,8 +67,8 @@ check "the worker gives the same bytes as the program" cmp -s program.csv worker
 $own --worker data/examples/two_storey_worker.py --parallel 3 --batch 7 --output batches.csv
 check "three workers in batches of seven too" cmp -s program.csv batches.csv
 data/examples/two_storey_um_bridge.py >address 2>server.log &
-server=$!
-while [ ! -s address ]; do sleep 0.05; done
+server=$! pid=$!
+wait_for test -s address
 bridge="$own --um-bridge $(cat address)"
 $bridge --model posterior --parallel 8 --output bridge.csv
 check "UM-Bridge gives the same bytes as the program" cmp -s program.csv bridge.csv

@@ -5,6 +5,7 @@ export PYTHONDONTWRITEBYTECODE=1
 own="$bin/own_model"
 examples=$source/examples
 cp -r "$source/data/examples" data/examples
+mkdir examples && cp "$source/examples/um_bridge_server.py" examples/
 
 # The file and the command line say the same.
 cat >frame.toml <<'TOML'
@@ -97,8 +98,8 @@ check "its posterior: 0.98 +- 0.03 N, 3.08 +- 0.01 Hz" awk -F, 'NR > 1 { n++; f 
 check "eight_groups.toml" $own "$examples/eight_groups.toml" --evaluations 13000 --quiet --output groups.csv
 check "its columns" test "$(head -1 groups.csv)" = mu,tau,theta_1,theta_2,theta_3,theta_4,theta_5,theta_6,theta_7,theta_8,log_likelihood
 data/examples/two_storey_um_bridge.py >address 2>server.log &
-server=$!
-while [ ! -s address ]; do sleep 0.05; done
+server=$! pid=$!
+wait_for test -s address
 check "frame_um_bridge.toml" $own "$examples/frame_um_bridge.toml" --um-bridge "$(cat address)" --model forward --evaluations 2600 --quiet --output bridge.csv
 check "the noise is a parameter" test "$(head -1 bridge.csv)" = stiffness_1,stiffness_2,noise,log_likelihood
 kill $server
@@ -114,8 +115,8 @@ if PATH=/usr/bin:$PATH python3 -c 'import numpy' 2>/dev/null; then
   $bouc --command "$examples/bouc_wen/program.py" --output program.csv
   check "the program gives the same bytes" cmp -s worker.csv program.csv
   "$examples/bouc_wen/um_bridge.py" >address.bouc 2>server.log &
-  server=$!
-  while [ ! -s address.bouc ]; do sleep 0.05; done
+  server=$! pid=$!
+  wait_for test -s address.bouc
   $shorter --um-bridge "$(cat address.bouc)" --model bouc_wen --output bridge.csv
   $shorter --output worker.csv
   check "UM-Bridge gives the same bytes" cmp -s worker.csv bridge.csv
