@@ -2,7 +2,6 @@
 # A model of one's own: the example, the same model as a program, programs that fail in every way, a run that is killed.
 source "$(dirname "$0")/support.sh"
 cp -r "$source/data/examples" data/examples
-mkdir examples && cp "$source/examples/um_bridge_server.py" examples/
 export TMPDIR=$work/tmp
 mkdir -p "$TMPDIR"
 own="$bin/own_model --evaluations 2600 --quiet"
@@ -66,6 +65,7 @@ $own --worker data/examples/two_storey_worker.py --output worker.csv
 check "the worker gives the same bytes as the program" cmp -s program.csv worker.csv
 $own --worker data/examples/two_storey_worker.py --parallel 3 --batch 7 --output batches.csv
 check "three workers in batches of seven too" cmp -s program.csv batches.csv
+mkdir examples && cp "$source/examples/um_bridge_server.py" examples/
 data/examples/two_storey_um_bridge.py >address 2>server.log &
 server=$! pid=$!
 wait_for test -s address
