@@ -21,7 +21,7 @@ std::vector<pbox::Ecdf> ecdfs_of(const std::vector<replication::Run>& runs, std:
   std::vector<pbox::Ecdf> ecdfs;
   for (const auto& run : runs) {
     const auto column = run.result.final.points.col(static_cast<Eigen::Index>(parameter));
-    ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()));
+    ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()), tmcmc::as_span(run.result.weights));
   }
   return ecdfs;
 }
