@@ -1,7 +1,9 @@
 #include "tmcmc/importance.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -133,13 +135,13 @@ double tempering_power(ConstDoubles log_weights, double target) {
   if (statistics.effective_sample_size(1.0) >= target) {
     return 1.0;
   }
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (statistics.effective_sample_size(middle) >= target ? low : high) = middle;
-  }
-  return low;
+  // The effective size falls from n at 0 to less than the target at 1.
+  const auto excess = [&](double power) { return statistics.effective_sample_size(power) - target; };
+  std::uintmax_t iterations = 60;
+  return boost::math::tools::toms748_solve(excess, 0.0, 1.0,
+                                           static_cast<double>(statistics.feasible()) - target, excess(1.0),
+                                           boost::math::tools::eps_tolerance<double>(40), iterations)
+      .first;
 }
 
 }  // namespace tmcmc

@@ -8,11 +8,13 @@
 #include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
 #include "tmcmc/detail/clusters.hpp"
+#include "tmcmc/detail/mixture_moments.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
 
 namespace tmcmc {
 
 using detail::cholesky_factor;
+using detail::Moments;
 using detail::proposal_covariance;
 using detail::weighted_mean;
 
@@ -28,32 +30,15 @@ double product_sum(const double* x, const double* y, Index n) {
   return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i] * y[i]; });
 }
 
-/// taken = weight * share; pull = taken * (nu + d) / (nu + distance).
+/// Log-density of each point; unit = weight / density, of which a component takes its term.
 PORTABLE_MATH_MULTIVERSION
-void pulls(Index rows, double nu, double d, const double* weights, const double* shares,
-           const double* distances, double* taken, double* pull) {
+void shared_weights(Index rows, const double* weights, const double* sum, const double* log_scale,
+                    double* log_density, double* unit) {
   for (Index i = 0; i < rows; ++i) {
-    taken[i] = weights[i] * shares[i];
-    pull[i] = taken[i] * ((nu + d) / (nu + distances[i]));
+    log_density[i] = log_scale[i] + portable_math::log(sum[i]);
+    unit[i] = sum[i] > 0.0 ? weights[i] / sum[i] : 0.0;
   }
 }
-
-PORTABLE_MATH_MULTIVERSION
-void deviations(Index rows, double centre, const double* z, const double* pull, double* deviation,
-                double* pulled) {
-  for (Index i = 0; i < rows; ++i) {
-    deviation[i] = z[i] - centre;
-    pulled[i] = pull[i] * deviation[i];
-  }
-}
-
-/// Sums of one component over the points, with deviations from its mean before the step.
-struct Moments {
-  double taken = 0.0;      // sum of weight times share
-  double pull = 0.0;       // the same times (nu + d) / (nu + distance)
-  Eigen::VectorXd first;   // of the pulls times the deviations
-  Eigen::MatrixXd second;  // lower triangle of the pulls times the products of two deviations
-};
 
 /// Work space and data of one fit.
 class Fit {
@@ -138,8 +123,7 @@ class Fit {
     StudentMixture mixture;
     mixture.degrees_of_freedom = options_.degrees_of_freedom;
     mixture.means = mean_.replicate(1, components);
-    moments_.assign(static_cast<std::size_t>(components),
-                    {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
+    moments_.assign(static_cast<std::size_t>(components), Moments(d_));
     mixture.weights = Eigen::VectorXd::Zero(components);
     for (Index i = 0; i < points.rows(); ++i) {
       Moments& moments = moments_[static_cast<std::size_t>(cluster_of[static_cast<std::size_t>(i)])];
@@ -162,41 +146,20 @@ class Fit {
   /// E-step and the sums of the M-step; returns the mean log-density.
   double expect(const StudentMixture& mixture) {
     const Index components = mixture.size();
-    const auto parts = detail::components_of(mixture);
-    const auto entries = static_cast<std::size_t>(components * detail::mixture_rows);
-    const auto block = static_cast<std::size_t>(d_ * detail::mixture_rows);
-    white_.resize(block);
-    pulled_.resize(block);
-    distances_.resize(entries);
-    shares_.resize(entries);
-    moments_.assign(static_cast<std::size_t>(components),
-                    {.first = Eigen::VectorXd::Zero(d_), .second = Eigen::MatrixXd::Zero(d_, d_)});
+    detail::MixtureTerms terms(mixture);
+    moments_.assign(static_cast<std::size_t>(components), Moments(d_));
     double log_density_sum = 0.0;
-    double log_densities[detail::mixture_rows];
-    double taken[detail::mixture_rows];
-    double pull[detail::mixture_rows];
+    double log_density[detail::mixture_rows];
+    double unit[detail::mixture_rows];
     for (Index begin = 0; begin < n_; begin += detail::mixture_rows) {
       const Index rows = std::min(detail::mixture_rows, n_ - begin);
       const double* weights = data_.weights.data() + begin;
-      detail::mixture_density(parts, d_, mixture.degrees_of_freedom, data_.points.data() + begin, n_, rows,
-                              white_.data(), distances_.data(), log_densities, shares_.data());
-      log_density_sum += product_sum(weights, log_densities, rows);
+      terms.evaluate(data_.points.data() + begin, n_, rows);
+      shared_weights(rows, weights, terms.sum(), terms.log_scale(), log_density, unit);
+      log_density_sum += product_sum(weights, log_density, rows);
       for (Index k = 0; k < components; ++k) {
-        Moments& moments = moments_[static_cast<std::size_t>(k)];
-        pulls(rows, options_.degrees_of_freedom, static_cast<double>(d_), weights,
-              shares_.data() + k * detail::mixture_rows, distances_.data() + k * detail::mixture_rows, taken,
-              pull);
-        moments.taken += sum(taken, rows);
-        moments.pull += sum(pull, rows);
-        for (Index j = 0; j < d_; ++j) {
-          double* pulled = pulled_.data() + j * detail::mixture_rows;
-          deviations(rows, mixture.means(j, k), data_.points.data() + begin + j * n_, pull,
-                     white_.data() + j * detail::mixture_rows, pulled);
-          moments.first[j] += sum(pulled, rows);
-          for (Index l = 0; l <= j; ++l) {
-            moments.second(j, l) += product_sum(pulled, white_.data() + l * detail::mixture_rows, rows);
-          }
-        }
+        add_moments({data_.points.data() + begin, n_, rows, unit}, terms, mixture, k,
+                    moments_[static_cast<std::size_t>(k)]);
       }
     }
     return log_density_sum / total_;
@@ -266,7 +229,6 @@ class Fit {
   Eigen::VectorXd mean_;
   Eigen::MatrixXd covariance_;
   std::vector<Moments> moments_;
-  std::vector<double> white_, pulled_, distances_, shares_;
 };
 
 }  // namespace

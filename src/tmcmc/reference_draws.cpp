@@ -1,8 +1,10 @@
 // Draws from reference densities, and the density that all of them together are from.
 
 #include <limits>
+#include <numeric>
 
 #include "portable_math/multiversion.hpp"
+#include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/detail/metropolis_step.hpp"
 #include "tmcmc/parallel.hpp"
 #include "tmcmc/reference_search.hpp"
@@ -25,43 +27,69 @@ Matrix stacked(const Matrix& a, const Matrix& b) {
   return all;
 }
 
-/// log_sum = log(exp(log_sum) + exp(shift + added)), at least one of them finite.
+/// result = log_own + log(fitted + prior_draws exp(log_prior - log_own)): log(sum_r n_r q_r).
 PORTABLE_MATH_MULTIVERSION
-void log_add(double shift, const double* added, Index n, double* log_sum) {
+void log_mixture(Index n, double prior_draws, const double* fitted, const double* log_prior,
+                 const double* log_own, double* result) {
   for (Index i = 0; i < n; ++i) {
-    const double first = log_sum[i];
-    const double second = shift + added[i];
-    const double larger = first > second ? first : second;
-    const double smaller = first > second ? second : first;
-    log_sum[i] = larger + portable_math::log_positive(1.0 + portable_math::exp(smaller - larger));
+    const double prior = portable_math::exp(log_prior[i] - log_own[i]);
+    result[i] = log_own[i] + portable_math::log(fitted[i] + prior_draws * prior);
   }
 }
 
-/// Adds count * reference to the mixture at the points.
-void add_reference(const ReferenceDensity& reference, Index count, const Population& z,
-                   const Eigen::VectorXd& log_prior, Eigen::VectorXd& log_mixture, int threads) {
-  const Eigen::VectorXd density = log_density(reference, z, log_prior, threads);
-  log_add(portable_math::log(static_cast<double>(count)), density.data(), density.size(), log_mixture.data());
+/// sum_r n_r s_r: the draws that the prior makes up.
+double prior_draws(const ReferenceDraws& draws) {
+  double result = 0.0;
+  for (std::size_t r = 0; r < draws.references.size(); ++r) {
+    result += static_cast<double>(draws.counts[r]) * draws.references[r].prior_share;
+  }
+  return result;
+}
+
+/// Adds n_r (1 - s_r) f_r over the density of the points' own, of each of the references.
+void add_references(const std::vector<ReferenceDensity>& references, const std::vector<Index>& counts,
+                    const Population& z, const Eigen::VectorXd& log_own, Eigen::VectorXd& fitted,
+                    int threads) {
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    const double draws = static_cast<double>(counts[r]) * (1.0 - references[r].prior_share);
+    if (draws > 0.0) {
+      add_relative_density(references[r].fitted, portable_math::log(draws), z, log_own, fitted, threads);
+    }
+  }
+}
+
+/// Those that the model does not exclude.
+ReferenceDraws without_excluded(const ReferenceDraws& draws) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < draws.z.rows(); ++i) {
+    if (draws.log_likelihood[i] > -detail::infinity) {
+      rows.push_back(i);
+    }
+  }
+  return {.z = draws.z(rows, Eigen::all),
+          .log_prior = draws.log_prior(rows),
+          .log_likelihood = draws.log_likelihood(rows),
+          .log_own = draws.log_own(rows),
+          .fitted = draws.fitted(rows),
+          .references = draws.references,
+          .counts = draws.counts};
 }
 
 }  // namespace
 
+Index ReferenceDraws::evaluations() const {
+  return std::accumulate(counts.begin(), counts.end(), Index{0});
+}
+
 void ReferenceDraws::append(const ReferenceDraws& other, int threads) {
-  if (references.empty()) {
-    *this = other;
-    return;
-  }
-  ReferenceDraws added = other;
-  for (std::size_t r = 0; r < references.size(); ++r) {
-    add_reference(references[r], counts[r], added.z, added.log_prior, added.log_mixture, threads);
-  }
-  for (std::size_t r = 0; r < other.references.size(); ++r) {
-    add_reference(other.references[r], other.counts[r], z, log_prior, log_mixture, threads);
-  }
+  ReferenceDraws added = without_excluded(other);
+  add_references(references, counts, added.z, added.log_own, added.fitted, threads);
+  add_references(other.references, other.counts, z, log_own, fitted, threads);
   z = stacked(z, added.z);
   log_prior = stacked(log_prior, added.log_prior);
   log_likelihood = stacked(log_likelihood, added.log_likelihood);
-  log_mixture = stacked(log_mixture, added.log_mixture);
+  log_own = stacked(log_own, added.log_own);
+  fitted = stacked(fitted, added.fitted);
   references.insert(references.end(), other.references.begin(), other.references.end());
   counts.insert(counts.end(), other.counts.begin(), other.counts.end());
 }
@@ -73,9 +101,10 @@ void ReferenceDraws::append_of_same_density(const ReferenceDraws& other) {
   z = stacked(z, other.z);
   log_prior = stacked(log_prior, other.log_prior);
   log_likelihood = stacked(log_likelihood, other.log_likelihood);
-  const Eigen::VectorXd mine = log_mixture.array() + portable_math::log((before + added) / before);
-  const Eigen::VectorXd others = other.log_mixture.array() + portable_math::log((before + added) / added);
-  log_mixture = stacked(mine, others);
+  log_own = stacked(log_own, other.log_own);
+  const Eigen::VectorXd mine = fitted * ((before + added) / before);
+  const Eigen::VectorXd others = other.fitted * ((before + added) / added);
+  fitted = stacked(mine, others);
 }
 
 ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity& reference, Index n,
@@ -84,12 +113,13 @@ ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity&
       .z = sample(reference, problem.prior, n, key, stage, threads),
       .log_prior = {},
       .log_likelihood = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN()),
-      .log_mixture = {},
+      .log_own = {},
+      .fitted = Eigen::VectorXd::Zero(n),
       .references = {reference},
       .counts = {n}};
   draws.log_prior = log_prior_density(draws.z, problem.prior, threads);
-  draws.log_mixture = log_density(reference, draws.z, draws.log_prior, threads).array() +
-                      portable_math::log(static_cast<double>(n));
+  draws.log_own = log_density(reference, draws.z, draws.log_prior, threads);
+  add_references(draws.references, draws.counts, draws.z, draws.log_own, draws.fitted, threads);
   const Population x = from_unbounded(draws.z, problem.prior);
   for_each_block(n, rows_per_call(n, threads, batch_rows), threads, [&](Index, Index begin, Index end) {
     problem.log_likelihood(x.middleRows(begin, end - begin),
@@ -99,19 +129,27 @@ ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity&
   return draws;
 }
 
+Eigen::VectorXd log_prior_weights(const ReferenceDraws& draws) {
+  const double log_n = portable_math::log(static_cast<double>(draws.evaluations()));
+  Eigen::VectorXd result(draws.z.rows());
+  log_mixture(result.size(), prior_draws(draws), draws.fitted.data(), draws.log_prior.data(),
+              draws.log_own.data(), result.data());
+  return (draws.log_prior - result).array() + log_n;
+}
+
 Eigen::VectorXd log_weights(const ReferenceDraws& draws) {
-  const double log_n = portable_math::log(static_cast<double>(draws.z.rows()));
-  return (draws.log_prior + draws.log_likelihood - draws.log_mixture).array() + log_n;
+  return log_prior_weights(draws) + draws.log_likelihood;
 }
 
 Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
-                                     const Eigen::VectorXd& log_prior, int threads) {
-  constexpr double nearly_nothing = -1e300;
-  Eigen::VectorXd log_mixture = Eigen::VectorXd::Constant(z.rows(), nearly_nothing);
-  for (std::size_t r = 0; r < draws.references.size(); ++r) {
-    add_reference(draws.references[r], draws.counts[r], z, log_prior, log_mixture, threads);
-  }
-  return log_mixture;
+                                     const Eigen::VectorXd& log_prior, const Eigen::VectorXd& log_own,
+                                     int threads) {
+  Eigen::VectorXd fitted = Eigen::VectorXd::Zero(z.rows());
+  add_references(draws.references, draws.counts, z, log_own, fitted, threads);
+  Eigen::VectorXd result(z.rows());
+  log_mixture(result.size(), prior_draws(draws), fitted.data(), log_prior.data(), log_own.data(),
+              result.data());
+  return result;
 }
 
 }  // namespace tmcmc

@@ -45,35 +45,51 @@ WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_
   return data;
 }
 
-/// The largest beta in (0, 1) at which the effective size is `wanted` or up to 3 % more: a bracket from 1 down in decades, and
+/// A temperature and the effective size there.
+struct Tried {
+  double beta = 1.0;
+  double effective = 0.0;
+};
+
+/// The largest beta in (0, 1] about `near` at which the effective size is `wanted` or up to 3 % more: a bracket in growing steps, and
 /// interpolation of the logarithms in it. 0 if there is none.
-/// \param at_one  effective size at 1, less than wanted
 template <class Function>
-double beta_of_size(const Function& effective_at, double wanted, double at_one) {
+Tried beta_of_size(const Function& effective_at, double wanted, double near) {
   constexpr double least_beta = 1e-30;
   constexpr double largest_excess = 1.03;
+  constexpr double widest_step = 10.0;
   constexpr int most_steps = 12;
-  double high = 1.0;
-  double at_high = at_one;
-  double low = 0.1;
-  double at_low = effective_at(low);
-  while (at_low < wanted) {
-    if (low < least_beta) {
-      return 0.0;
+  double step = near < 1.0 ? 1.5 : widest_step;
+  const auto tried = [&](double beta) { return Tried{beta, effective_at(beta)}; };
+  Tried high;
+  Tried low = tried(near);
+  while (low.effective >= wanted) {
+    if (low.beta == 1.0) {
+      return low;
+    }
+    high = tried(std::min(low.beta * step, 1.0));
+    if (high.effective < wanted) {
+      break;
+    }
+    low = high;
+    step = std::min(step * step, widest_step);
+  }
+  while (low.effective < wanted) {
+    if (low.beta < least_beta) {
+      return {0.0, 0.0};
     }
     high = low;
-    at_high = at_low;
-    low *= 0.1;
-    at_low = effective_at(low);
+    low = tried(low.beta / step);
+    step = std::min(step * step, widest_step);
   }
   using portable_math::log;
-  for (int step = 0; step < most_steps && at_low > largest_excess * wanted; ++step) {
+  for (int k = 0; k < most_steps && low.effective > largest_excess * wanted; ++k) {
     const double aim = std::sqrt(largest_excess) * wanted;
-    const double part = at_high > 0.0 ? log(at_low / aim) / log(at_low / at_high) : 0.5;
-    const double middle = low * portable_math::exp(std::clamp(part, 0.1, 0.9) * log(high / low));
-    const double at_middle = effective_at(middle);
-    (at_middle >= wanted ? low : high) = middle;
-    (at_middle >= wanted ? at_low : at_high) = at_middle;
+    const double part =
+        high.effective > 0.0 ? log(low.effective / aim) / log(low.effective / high.effective) : 0.5;
+    const Tried middle =
+        tried(low.beta * portable_math::exp(std::clamp(part, 0.1, 0.9) * log(high.beta / low.beta)));
+    (middle.effective >= wanted ? low : high) = middle;
   }
   return low;
 }
@@ -88,28 +104,23 @@ WeightedPoints fit_points(const ReferenceDraws& draws, double fewest) {
                   power > 0.0 ? effective_sample_size(as_span(log_weight), power) : 0.0);
 }
 
-TemperedPoints tempered_points(const ReferenceDraws& draws, double target) {
+TemperedPoints tempered_points(const ReferenceDraws& draws, double target, double near) {
   constexpr Index fewest_feasible = 10;
-  const Eigen::VectorXd log_weight = log_weights(draws);
   const Index feasible = feasible_draws(draws);
   if (feasible < fewest_feasible) {
-    return {weighted(draws, log_weight, 0.0)};
+    return {};
   }
-  const double wanted = std::min(target, 0.5 * static_cast<double>(feasible));
-  // An excluded draw keeps its weight of 0.
-  const Eigen::VectorXd log_likelihood =
-      (draws.log_likelihood.array() > -detail::infinity).select(draws.log_likelihood, 0.0);
-  const auto at_temperature = [&](double beta) -> Eigen::VectorXd {
-    return log_weight - (1.0 - beta) * log_likelihood;
-  };
+  const Eigen::VectorXd at_prior = log_prior_weights(draws);
+  Eigen::VectorXd tempered(at_prior.size());
+  const auto temper = [&](double beta) { tempered = at_prior + beta * draws.log_likelihood; };
   const auto effective_at = [&](double beta) {
-    return effective_sample_size(as_span(at_temperature(beta)), 1.0);
+    temper(beta);
+    return effective_sample_size(as_span(tempered), 1.0);
   };
-  const double at_one = effective_at(1.0);
-  const double beta = at_one >= wanted ? 1.0 : beta_of_size(effective_at, wanted, at_one);
-  const Eigen::VectorXd tempered = at_temperature(beta);
-  const double effective = effective_sample_size(as_span(tempered), 1.0);
-  return {weighted(draws, tempered, effective), beta, effective};
+  const double wanted = std::min(target, 0.5 * static_cast<double>(feasible));
+  const Tried found = beta_of_size(effective_at, wanted, near);
+  temper(found.beta);
+  return {weighted(draws, tempered, found.effective), found.beta, found.effective};
 }
 
 namespace {
@@ -121,7 +132,7 @@ void fit_round(const TemperedPoints& tempered, const SearchOptions& options, con
       options.target < 100.0 ? 1.4 : 2.0;  // few draws lose modes to fits of too few components
   constexpr int iterations_from_last_fit = 3;
   constexpr double tempered_below = 0.3;
-  const Index rows = search.draws.z.rows();
+  const Index rows = search.draws.evaluations();
   if (search.fit.size() == 0 || (tempered.beta == 1.0 && search.beta() < 1.0) ||
       static_cast<double>(rows) >= growth * static_cast<double>(rows_at_choice)) {
     search.fit = fit_mixture(tempered.points, options.fit, key, stage);
@@ -153,7 +164,8 @@ Search search_once(const Problem& problem, const SearchOptions& options, const S
   draw(prior, std::min(std::max(2 * options.round, options.evaluations / 8), options.evaluations));
   Index rows_at_choice = 0;
   for (;;) {
-    TemperedPoints tempered = tempered_points(search.draws, options.target);
+    TemperedPoints tempered =
+        tempered_points(search.draws, options.target, search.beta() > 0.0 ? search.beta() : 1.0);
     const bool is_fitted = tempered.beta > 0.0;
     if (is_fitted) {
       fit_round(tempered, options, key, stage, rows_at_choice, search);
@@ -162,12 +174,12 @@ Search search_once(const Problem& problem, const SearchOptions& options, const S
     tempered.points = {};
     search.rounds.push_back(std::move(tempered));
     const bool is_early = effective >= early * options.target && options.target < options.most_target &&
-                          search.draws.z.rows() < options.evaluations / 3;
+                          search.draws.evaluations() < options.evaluations / 3;
     const bool is_enough = search.beta() == 1.0 && (effective >= options.enough || is_early);
     const Index round = search.beta() == 1.0
                             ? std::max(options.round, static_cast<Index>(growth_at_posterior * effective))
                             : options.round;
-    const Index left = std::min(round, options.evaluations - search.draws.z.rows());
+    const Index left = std::min(round, options.evaluations - search.draws.evaluations());
     if (is_enough || left <= 0) {
       return search;
     }
@@ -183,9 +195,9 @@ Search search_posterior(const Problem& problem, SearchOptions options, const Str
   constexpr double least_factor = 1.3;          // by which populations grow
   constexpr double enough_of_repeats = 1000.0;  // effective draws
   Search search = search_once(problem, options, key, 0);
-  auto used = static_cast<double>(search.draws.z.rows());
+  auto used = static_cast<double>(search.draws.evaluations());
   for (std::uint32_t pass = 1; search.beta() == 1.0; ++pass) {
-    const Index left = options.evaluations - search.draws.z.rows();
+    const Index left = options.evaluations - search.draws.evaluations();
     const double factor =
         std::min(share_of_the_rest * static_cast<double>(left) / used, options.most_target / search.target);
     if (factor < least_factor) {
@@ -198,14 +210,14 @@ Search search_posterior(const Problem& problem, SearchOptions options, const Str
         static_cast<Index>(factor * search.target / options.target * static_cast<double>(options.round));
     larger.enough = std::max(options.enough, std::min(factor * options.enough, enough_of_repeats));
     Search next = search_once(problem, larger, key, pass * stages);
-    used = static_cast<double>(next.draws.z.rows());
+    used = static_cast<double>(next.draws.evaluations());
     next.most_modes = std::max(next.most_modes, search.most_modes);
     search.draws.append(next.draws, options.threads);
     next.draws = std::move(search.draws);
     search = std::move(next);
   }
   if (search.beta() == 0.0 && feasible_draws(search.draws) == 0) {
-    throw InfeasiblePriorError("none of the " + std::to_string(search.draws.z.rows()) +
+    throw InfeasiblePriorError("none of the " + std::to_string(search.draws.evaluations()) +
                                " draws from the prior is feasible: the model excludes every one");
   }
   return search;

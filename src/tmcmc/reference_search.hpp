@@ -9,16 +9,20 @@
 
 namespace tmcmc {
 
-/// Draws from one or several reference densities, in unbounded coordinates.
+/// Draws from one or several reference densities q_r = (1 - s_r) f_r + s_r p, in unbounded coordinates, n_r from each. Sums of these
+/// densities are kept relative to that of the own density of each draw, where nothing can overflow.
 struct ReferenceDraws {
-  Population z;                              ///< n x d
-  Eigen::VectorXd log_prior;                 ///< n, log_prior_density(z, prior)
-  Eigen::VectorXd log_likelihood;            ///< n
-  Eigen::VectorXd log_mixture;               ///< n, log(sum_r n_r q_r): the densities that all draws are from
+  Population z;                    ///< n x d
+  Eigen::VectorXd log_prior;       ///< n, log_prior_density(z, prior)
+  Eigen::VectorXd log_likelihood;  ///< n
+  Eigen::VectorXd log_own;         ///< n, log-density of the reference density that the draw is from
+  Eigen::VectorXd fitted;          ///< n, sum_r n_r (1 - s_r) f_r over that density
   std::vector<ReferenceDensity> references;  ///< q_r, in the order of their draws
-  std::vector<Index> counts;                 ///< n_r, draws from each; their sum is n
+  std::vector<Index> counts;                 ///< n_r, those that are excluded among them
 
-  /// Adds draws; each density is evaluated at the draws of the other side.
+  /// sum_r n_r, the evaluations that the draws have cost.
+  [[nodiscard]] Index evaluations() const;
+  /// Adds the draws that are not excluded, of weight 0; each density is evaluated at the draws of the other side.
   void append(const ReferenceDraws& other, int threads = 1);
   /// Adds draws from the same single density as these.
   void append_of_same_density(const ReferenceDraws& other);
@@ -31,15 +35,20 @@ struct ReferenceDraws {
                                                Index n, const StreamKey& key, std::uint32_t stage,
                                                int threads = 1, Index batch_rows = 2048);
 
-/// log(L p) - log(sum_r n_r q_r / n): the weights of the deterministic mixture of all densities that were drawn from (Owen
-/// and Zhou 2000; Cornuet, Marin, Mira and Robert 2012). Where the later densities were fitted to the earlier draws, the
-/// mean weight is consistent but not unbiased.
+/// log p - log(sum_r n_r q_r / sum_r n_r): with the log-likelihood, times a temperature, it is the logarithm of the weight in the
+/// deterministic mixture of all densities that were drawn from (Owen and Zhou 2000; Cornuet, Marin, Mira and Robert 2012). Where the
+/// later densities were fitted to the earlier draws, the mean weight is consistent but not unbiased.
+[[nodiscard]] Eigen::VectorXd log_prior_weights(const ReferenceDraws& draws);
+
+/// The same of the posterior: log(L p) - log(sum_r n_r q_r / sum_r n_r).
 [[nodiscard]] Eigen::VectorXd log_weights(const ReferenceDraws& draws);
 
 /// log(sum_r n_r q_r) at other points: the expected number of the draws per volume.
 /// \param log_prior  log_prior_density(z, prior)
+/// \param log_own  log-density that these points are drawn from
 [[nodiscard]] Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
-                                                   const Eigen::VectorXd& log_prior, int threads = 1);
+                                                   const Eigen::VectorXd& log_prior,
+                                                   const Eigen::VectorXd& log_own, int threads = 1);
 
 /// The draws with their weights, for a fit: these sum to the effective size. Where that is below `fewest` or half of the
 /// feasible draws, the weights are raised to the power in (0, 1] at which it is reached.
@@ -53,7 +62,8 @@ struct TemperedPoints {
 };
 /// The largest beta in (0, 1] at which the effective size is at least `target` (or half of the feasible draws): the criterion
 /// of TMCMC, for the draws of all rounds so far in place of one population.
-[[nodiscard]] TemperedPoints tempered_points(const ReferenceDraws& draws, double target);
+/// \param near  a beta in (0, 1] from which to look, such as that of the round before
+[[nodiscard]] TemperedPoints tempered_points(const ReferenceDraws& draws, double target, double near = 1.0);
 
 /// How a search spends its evaluations.
 struct SearchOptions {

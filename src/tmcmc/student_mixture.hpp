@@ -47,31 +47,10 @@ struct StudentMixture {
 /// systematic resampling. They sum to n, and their means over `uniform` in (0, 1) are exact.
 [[nodiscard]] std::vector<Index> systematic_counts(ConstDoubles shares, Index n, double uniform);
 
-namespace detail {
-
-/// Rows that are worked on at a time: their intermediate results stay in the cache.
-constexpr Index mixture_rows = 256;
-
-/// One component ready for use.
-struct Component {
-  const double* mean;    ///< d
-  const double* factor;  ///< d x d, by columns
-  double log_constant;   ///< log of its weight times the density at its mean
-};
-
-/// The components, with the constants of their densities.
-[[nodiscard]] std::vector<Component> components_of(const StudentMixture& mixture);
-
-/// Log-density of the mixture at up to mixture_rows points, with what a fit needs.
-/// \param points,stride  first coordinate of the first point; coordinate j stands j * stride further on
-/// \param white  work space, d x mixture_rows
-/// \param distances  K x mixture_rows, overwritten: |L_k^-1 (z - m_k)|^2
-/// \param log_density  of each point, overwritten
-/// \param shares  K x mixture_rows, overwritten: of each component in the density; all 0 where that is 0
-void mixture_density(const std::vector<Component>& components, Index d, int degrees_of_freedom,
-                     const double* points, Index stride, Index rows, double* white, double* distances,
-                     double* log_density, double* shares);
-
-}  // namespace detail
+/// total += factor q(z) / exp(log_scale), a row a point: sums of densities relative to one of which the points are draws.
+/// \param log_factor  log of the factor
+/// \param log_scale  one a row
+void add_relative_density(const StudentMixture& mixture, double log_factor, const Population& points,
+                          const Eigen::VectorXd& log_scale, Eigen::VectorXd& total, int threads = 1);
 
 }  // namespace tmcmc

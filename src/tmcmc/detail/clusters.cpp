@@ -29,6 +29,14 @@ void lower_distances(Index n, Index d, const double* points, const double* centr
   }
 }
 
+/// nearest = k where the distance has become less.
+PORTABLE_MATH_MULTIVERSION
+void take_nearer(Index n, Index k, const double* least, const double* before, Index* nearest) {
+  for (Index i = 0; i < n; ++i) {
+    nearest[i] = least[i] < before[i] ? k : nearest[i];
+  }
+}
+
 /// Weighted k-means++: rows, each drawn in proportion to weight times squared distance from those before.
 std::vector<Index> first_centres(const Population& white, const Eigen::VectorXd& weights, Index components,
                                  const StreamKey& key, std::uint32_t stage) {
@@ -82,11 +90,7 @@ std::vector<Index> clusters(const Population& white, const Eigen::VectorXd& weig
     for (Index k = 0; k < count; ++k) {
       const Eigen::VectorXd before = least;
       lower_distances(n, d, white.data(), centres.col(k).data(), distance.data(), least.data());
-      for (Index i = 0; i < n; ++i) {
-        if (least[i] < before[i]) {
-          nearest[static_cast<std::size_t>(i)] = k;
-        }
-      }
+      take_nearer(n, k, least.data(), before.data(), nearest.data());
     }
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(d, count);
     Eigen::VectorXd taken = Eigen::VectorXd::Zero(count);

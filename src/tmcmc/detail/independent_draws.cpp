@@ -96,11 +96,13 @@ double missed_mass(const Search& search, const ReferenceDraws& draws, const Eige
   const Index stride = (n + most_points - 1) / most_points;
   Population z((n + stride - 1) / stride, draws.z.cols());
   Eigen::VectorXd log_prior(z.rows());
+  Eigen::VectorXd log_own(z.rows());
   for (Index i = 0; i < z.rows(); ++i) {
     z.row(i) = draws.z.row(i * stride);
     log_prior[i] = draws.log_prior[i * stride];
+    log_own[i] = draws.log_own[i * stride];
   }
-  const Eigen::VectorXd log_draws = log_draws_per_volume(search.draws, z, log_prior, threads);
+  const Eigen::VectorXd log_draws = log_draws_per_volume(search.draws, z, log_prior, log_own, threads);
   double missed = 0.0;
   double all = 0.0;
   for (Index i = 0; i < z.rows(); ++i) {
@@ -222,7 +224,7 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
     searches[k] = search_posterior(problem, search, derived(key, k));
     target = std::min(target, searches[k].target);
     measured.search_beta[k] = searches[k].beta();
-    measured.evaluations += searches[k].draws.z.rows();
+    measured.evaluations += searches[k].draws.evaluations();
     measured.modes = std::max(measured.modes, searches[k].most_modes);
   }
   measured.rounds = records_of(searches[0]);

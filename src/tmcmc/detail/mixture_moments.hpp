@@ -1,0 +1,32 @@
+/// \file
+/// Weighted moments of blocks of points, for the fit of a mixture of Student t distributions.
+#pragma once
+
+#include "tmcmc/detail/mixture_terms.hpp"
+
+namespace tmcmc::detail {
+
+/// Sums of one component over points, with deviations from its mean before a step of the fit. The pull of a point is what the
+/// component takes of it, times (nu + d) / (nu + distance).
+struct Moments {
+  double taken = 0.0;      ///< sum of what it takes
+  double pull = 0.0;       ///< sum of the pulls
+  Eigen::VectorXd first;   ///< sum of the pulls times the deviations
+  Eigen::MatrixXd second;  ///< lower triangle of the sum of the pulls times the products of two deviations
+
+  explicit Moments(Index d) : first(Eigen::VectorXd::Zero(d)), second(Eigen::MatrixXd::Zero(d, d)) {}
+};
+
+/// Points of a block, as evaluated in MixtureTerms.
+struct MomentPoints {
+  const double* points;  ///< first coordinate of the first point; coordinate j stands j * stride further on
+  Index stride;
+  Index rows;
+  const double* unit;  ///< of each point: a component takes unit * term
+};
+
+/// Adds the points to the moments of component k.
+void add_moments(const MomentPoints& block, const MixtureTerms& terms, const StudentMixture& mixture, Index k,
+                 Moments& moments);
+
+}  // namespace tmcmc::detail

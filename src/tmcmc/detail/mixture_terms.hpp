@@ -1,0 +1,47 @@
+/// \file
+/// Terms of a mixture of Student t distributions at blocks of points.
+#pragma once
+
+#include <vector>
+
+#include "tmcmc/student_mixture.hpp"
+
+namespace tmcmc::detail {
+
+/// Rows that are worked on at a time: their intermediate results stay in the cache.
+constexpr Index mixture_rows = 256;
+
+/// One component ready for use.
+struct Component {
+  const double* mean;    ///< d
+  const double* factor;  ///< d x d, by columns
+  double log_constant;   ///< log of its weight times the density at its mean
+};
+
+/// Terms of a mixture at up to mixture_rows points: q(z_i) = exp(log_scale_i) sum_i, of which component k has term_ik. Entry i of
+/// component k stands at k * mixture_rows + i.
+class MixtureTerms {
+ public:
+  /// \param mixture  non-owning view; it must outlive this
+  explicit MixtureTerms(const StudentMixture& mixture);
+  /// \param points,stride  first coordinate of the first point; coordinate j stands j * stride further on
+  void evaluate(const double* points, Index stride, Index rows);
+
+  /// |L_k^-1 (z_i - m_k)|^2
+  [[nodiscard]] const double* distances() const { return distances_.data(); }
+  [[nodiscard]] const double* terms() const { return terms_.data(); }
+  [[nodiscard]] const double* sum() const { return sum_.data(); }
+  [[nodiscard]] const double* log_scale() const { return log_scale_.data(); }
+
+ private:
+  void evaluate_by_logarithms(Index i);
+
+  std::vector<Component> components_;
+  Index d_;
+  Index degrees_of_freedom_;
+  double log_largest_ = 0.0;  // constant of a component
+  Eigen::ArrayXXd white_, distances_, terms_;
+  Eigen::ArrayXd sum_, log_scale_;
+};
+
+}  // namespace tmcmc::detail
