@@ -26,8 +26,8 @@ struct NoFinish {
 ///    population N is a twentieth of what a search has beyond 600 evaluations, at most 200 draws or
 ///    40 d, whichever is more; CoV = c is f = 1 / (1 + c^2), the same rule. There is a new fit after
 ///    each N/2 draws, but no fewer than min(N, 100).
-/// 2. One density q is fitted to the draws of both. Defensive shares of the prior and of the
-///    tempered fits keep the weights bounded where the fit is too narrow. Trial draws, a sixth of
+/// 2. One density q is fitted to the draws of both. Defensive shares of the prior, of the tempered
+///    fits and of wider components keep the weights bounded where the fit is too narrow. Trial draws, a sixth of
 ///    what is left, tell whether it overlaps with the posterior; if not, they serve another fit.
 /// 3. q is frozen, and the rest are independent draws from it. With weights w = L p / q the
 ///    log-evidence is log(mean w). No draw that a fit has seen is among them, so that the mean
@@ -46,13 +46,16 @@ struct IndependentDraws {
 
   /// Share of the evaluations for the two searches together; they get 1300 besides, but never more
   /// than 0.64 of what there is.
-  double search_share = 0.28;
+  double search_share = 0.32;
   /// Effective share of the trial draws below which the fit is improved.
   double least_effective_share = 0.25;
   /// Share of the draws that are from the prior.
   double prior_share = 0.02;
   /// Share of the draws that are from the searches' fits at beta below 0.3.
   double tempered_share = 0.05;
+  /// Share of the draws that are from the fit with wider components, see with_wider_components();
+  /// half as much again in the searches.
+  double wide_share = 0.1;
   /// Of the densities.
   MixtureFitOptions fit = {};
 };
@@ -83,6 +86,9 @@ void visit_finish_options(AnyFinish& finish, Visit&& visit) {
         member_of(draws, &IndependentDraws::prior_share));
   visit(row("tempered_share", below_one, "Share of the draws from fits at a small beta"),
         member_of(draws, &IndependentDraws::tempered_share));
+  visit(row("wide_share", {.least = 0.0, .most = 0.5},
+            "Share of the draws from wider components; in searches half as much again"),
+        member_of(draws, &IndependentDraws::wide_share));
   visit(row("mixture_degrees_of_freedom", whole_from(2, 1000), "Of the fitted Student t distributions; even"),
         member_of(fit, &MixtureFitOptions::degrees_of_freedom));
   visit(row("mixture_components", whole_from(1, 1000), "Most components of a fitted mixture"),

@@ -17,7 +17,7 @@ struct WeightedPoints {
 /// Limits of a fit.
 struct MixtureFitOptions {
   int degrees_of_freedom = 8;  ///< nu, even
-  Index most_components = 8;   ///< the numbers 1, 2, 4, ... up to this are tried
+  Index most_components = 16;  ///< the numbers 1, 2, 4, ... up to this are tried
   int most_iterations = 8;     ///< of the EM algorithm
   double tolerance = 3e-3;     ///< of the mean log-density: a smaller gain ends the iteration
   double gain_of_component =

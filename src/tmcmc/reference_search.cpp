@@ -183,7 +183,10 @@ Search search_once(const Problem& problem, const SearchOptions& options, const S
     if (is_enough || left <= 0) {
       return search;
     }
-    draw(is_fitted ? ReferenceDensity{search.fit, options.prior_share} : prior, left);
+    draw(is_fitted
+             ? ReferenceDensity{with_wider_components(search.fit, options.wide_share), options.prior_share}
+             : prior,
+         left);
   }
 }
 

@@ -137,8 +137,9 @@ enum class WarningKind {
   /// Independent draws: k-hat is above min(1 - 1 / log10(n), 0.7); the error of the log-evidence is
   /// a lower bound.
   heavy_weights,
-  /// Independent draws: beta was chosen by fewer than 40 effective draws, or by fewer than 25 for
-  /// each of several separate modes; another mode may have been lost.
+  /// Independent draws: beta was chosen by fewer than 40 effective draws, or, where there are
+  /// several separate modes, by fewer than 25 for each of them and one more; another mode may have
+  /// been lost.
   few_draws_a_mode
 };
 constexpr std::array<std::string_view, 13> enumerator_names(std::type_identity<WarningKind>) {

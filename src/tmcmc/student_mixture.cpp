@@ -1,7 +1,9 @@
 #include "tmcmc/student_mixture.hpp"
 
 #include <algorithm>
+#include <numbers>
 
+#include "portable_math/elementary.hpp"
 #include "portable_math/multiversion.hpp"
 #include "tmcmc/detail/mixture_terms.hpp"
 #include "tmcmc/parallel.hpp"
@@ -64,6 +66,18 @@ StudentMixture blend(const StudentMixture& a, double share, const StudentMixture
   result.means << a.means, b.means;
   result.factors.insert(result.factors.end(), b.factors.begin(), b.factors.end());
   return result;
+}
+
+StudentMixture with_wider_components(const StudentMixture& mixture, double share) {
+  if (share == 0.0) {
+    return mixture;
+  }
+  constexpr double log_most_volume = 4.0 * std::numbers::ln2;
+  StudentMixture wider = mixture;
+  for (Eigen::MatrixXd& factor : wider.factors) {
+    factor *= std::min(2.0, portable_math::exp(log_most_volume / static_cast<double>(mixture.dimension())));
+  }
+  return blend(wider, share, mixture);
 }
 
 }  // namespace tmcmc

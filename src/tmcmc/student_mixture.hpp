@@ -43,6 +43,11 @@ struct StudentMixture {
 /// share * a + (1 - share) * b. Both must have the same degrees of freedom.
 [[nodiscard]] StudentMixture blend(const StudentMixture& a, double share, const StudentMixture& b);
 
+/// A share of the same components with larger scales: F_k = c L_k, c = min(2, 2^(4/d)), so that a component takes up to 16 times its
+/// volume. Where the fit's tails are too light in one direction, such as that of a parameter which the data bound from one side alone,
+/// they bound the importance weights.
+[[nodiscard]] StudentMixture with_wider_components(const StudentMixture& mixture, double share);
+
 /// Numbers of n draws that go to parts of the given shares: floor of the cumulative share times n plus `uniform`, as in
 /// systematic resampling. They sum to n, and their means over `uniform` in (0, 1) are exact.
 [[nodiscard]] std::vector<Index> systematic_counts(ConstDoubles shares, Index n, double uniform);

@@ -97,6 +97,67 @@ TEST_CASE("Draws have the means and the covariances of their components") {
   CHECK((found - covariance).cwiseAbs().maxCoeff() < 0.03 * covariance.cwiseAbs().maxCoeff());
 }
 
+TEST_CASE("Sums of densities are relative to the given scale, whatever its level") {
+  const StudentMixture mixture = two_components();
+  const Population points = sample(mixture, 300, {.seed = 5}, 0);
+  const Eigen::VectorXd log_density_of_mixture = log_density(mixture, points);
+  for (const double level : {0.0, -600.0, 600.0}) {
+    Eigen::VectorXd total = Eigen::VectorXd::Constant(300, 2.0);
+    const Eigen::VectorXd log_scale = log_density_of_mixture.array() + level;
+    add_relative_density(mixture, std::log(3.0) + level, points, log_scale, total);
+    CHECK((total.array() - 5.0).abs().maxCoeff() < 1e-12);
+  }
+}
+
+TEST_CASE("Densities in few dimensions and in many are the same function") {
+  // A coordinate that is independent of the others factorises out of a normal, but not of Student's t: so compare with the definition.
+  for (const Index d : {1, 2, 3, 4, 5, 6, 7, 9}) {
+    for (const int nu : {4, 8}) {
+      StudentMixture t;
+      t.degrees_of_freedom = nu;
+      t.weights = Eigen::VectorXd::Ones(1);
+      t.means = Eigen::VectorXd::LinSpaced(d, -1.0, 2.0);
+      Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(d, d);
+      for (Index j = 0; j < d; ++j) {
+        for (Index l = 0; l < j; ++l) {
+          factor(j, l) = 0.1 * static_cast<double>(j - 2 * l);
+        }
+        factor(j, j) = 0.5 + 0.25 * static_cast<double>(j);
+      }
+      t.factors = {factor};
+      const Population points = sample(t, 50, {.seed = 6}, 0);
+      const Eigen::VectorXd found = log_density(t, points);
+      for (Index i = 0; i < points.rows(); ++i) {
+        const Eigen::VectorXd white =
+            factor.triangularView<Eigen::Lower>().solve(points.row(i).transpose() - t.means);
+        const double half = 0.5 * static_cast<double>(nu + d);
+        const double expected = std::lgamma(half) - std::lgamma(0.5 * nu) -
+                                0.5 * static_cast<double>(d) * std::log(nu * std::acos(-1.0)) -
+                                factor.diagonal().array().log().sum() -
+                                half * std::log1p(white.squaredNorm() / nu);
+        CHECK(found[i] == Approx(expected).epsilon(1e-12).margin(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("Wider components keep the means, and take at most 16 times the volume and twice the width") {
+  for (const Index d : {1, 4, 8}) {
+    StudentMixture t;
+    t.weights = Eigen::VectorXd::Ones(1);
+    t.means = Eigen::VectorXd::Ones(d);
+    t.factors = {3.0 * Eigen::MatrixXd::Identity(d, d)};
+    const StudentMixture wide = with_wider_components(t, 0.25);
+    REQUIRE(wide.size() == 2);
+    CHECK(wide.weights == Eigen::Vector2d(0.25, 0.75));
+    CHECK(wide.means.col(0) == t.means);
+    const double width = wide.factors[0](0, 0) / 3.0;
+    CHECK(width == Approx(d <= 4 ? 2.0 : std::pow(16.0, 1.0 / static_cast<double>(d))).epsilon(rounding));
+    CHECK(wide.factors[1] == t.factors[0]);
+    CHECK(with_wider_components(t, 0.0).size() == 1);
+  }
+}
+
 TEST_CASE("Each component gets its share of the draws, rounded") {
   const std::vector<double> shares{0.5, 0.0, 0.3, 0.2};
   for (const double u : {0.001, 0.5, 0.999}) {
@@ -126,6 +187,36 @@ TEST_CASE("A fit finds the components that the points were drawn from") {
   const double divergence = (log_density(truth, fresh) - log_density(fit, fresh)).mean();
   CHECK(divergence < 0.02);
   CHECK(divergence > -1e-3);
+}
+
+TEST_CASE(
+    "The fit of one component solves the equations of the maximum likelihood, in few dimensions and in "
+    "many") {
+  for (const Index d : {1, 2, 3, 4, 5, 6, 8}) {
+    StudentMixture truth;
+    truth.weights = Eigen::VectorXd::Ones(1);
+    truth.means = Eigen::VectorXd::LinSpaced(d, 0.0, 3.0);
+    truth.factors = {Eigen::MatrixXd::Identity(d, d)};
+    truth.factors[0](d - 1, 0) += 0.7;
+    WeightedPoints data = equally_weighted_points(sample(truth, 601, {.seed = 7}, 0));
+    data.weights.head(100).setConstant(0.25);
+    const MixtureFitOptions options{.most_iterations = 200, .tolerance = 1e-14};
+    const StudentMixture fit = fit_mixture(data, 1, options, {.seed = 8}, 0);
+    const Eigen::MatrixXd scale = fit.factors[0] * fit.factors[0].transpose();
+    double pulls = 0.0;
+    Eigen::VectorXd first = Eigen::VectorXd::Zero(d);
+    Eigen::MatrixXd second = Eigen::MatrixXd::Zero(d, d);
+    for (Index i = 0; i < 601; ++i) {
+      const Eigen::VectorXd deviation = data.points.row(i).transpose() - fit.means;
+      const double distance = fit.factors[0].triangularView<Eigen::Lower>().solve(deviation).squaredNorm();
+      const double pull = data.weights[i] * (8.0 + static_cast<double>(d)) / (8.0 + distance);
+      pulls += pull;
+      first += pull * deviation;
+      second += pull * deviation * deviation.transpose();
+    }
+    CHECK((first / pulls).cwiseAbs().maxCoeff() < 1e-5);
+    CHECK((second / pulls - scale).cwiseAbs().maxCoeff() < 1e-5 * scale.cwiseAbs().maxCoeff());
+  }
 }
 
 TEST_CASE("Points of weight zero have no influence on a fit") {

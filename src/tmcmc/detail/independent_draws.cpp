@@ -56,21 +56,24 @@ SearchOptions search_options(const Options& options, const IndependentDraws& set
           .most_target = share * most,
           .enough = 15.0 * share * population,
           .prior_share = settings.prior_share,
+          .wide_share = 1.5 * settings.wide_share,
           .fit = settings.fit,
           .threads = options.threads,
           .batch_rows = options.batch_rows};
 }
 
-/// The fit with a share of the tempered ones, if there are any, and one of the prior.
+/// The fit with shares of wider components, of the tempered fits, if there are any, and of the prior.
 ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMixture& fit,
                               const std::array<Search, 2>& searches) {
+  const StudentMixture wide = with_wider_components(fit, settings.wide_share);
   const StudentMixture& a = searches[0].tempered;
   const StudentMixture& b = searches[1].tempered;
   if (a.size() == 0 && b.size() == 0) {
-    return {.fitted = fit, .prior_share = settings.prior_share};
+    return {.fitted = wide, .prior_share = settings.prior_share};
   }
   const StudentMixture tempered = a.size() > 0 && b.size() > 0 ? blend(a, 0.5, b) : (a.size() > 0 ? a : b);
-  return {.fitted = blend(fit, 1.0 - settings.tempered_share, tempered), .prior_share = settings.prior_share};
+  return {.fitted = blend(wide, 1.0 - settings.tempered_share, tempered),
+          .prior_share = settings.prior_share};
 }
 
 /// The points of both, each with their own weights. Since a density is fitted to them, and no more, the evidence of one search
@@ -139,8 +142,9 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
   const double fewest_a_mode = measured.modes > 1 ? 25.0 : 40.0;
   if (!(measured.draws_a_mode >= fewest_a_mode)) {
     warn(Kind::few_draws_a_mode,
-         measured.modes > 1 ? "the number of effective draws that chose beta, for each of several modes,"
-                            : "the number of effective draws that chose beta",
+         measured.modes > 1
+             ? "the number of effective draws that chose beta, for each mode and one that may be lost,"
+             : "the number of effective draws that chose beta",
          measured.draws_a_mode, "below", fewest_a_mode,
          "another mode may have been lost; take more evaluations");
   }
@@ -269,7 +273,7 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
     measured.missed_mass[k] = missed_mass(searches[k], draws, measured.weights, estimate.log_mean, threads);
   }
   measured.modes = std::max(measured.modes, detail::separate_modes(measured.reference.fitted));
-  measured.draws_a_mode = target / static_cast<double>(measured.modes);
+  measured.draws_a_mode = target / static_cast<double>(measured.modes > 1 ? measured.modes + 1 : 1);
   measured.warnings = warnings_of(measured);
   return measured;
 }

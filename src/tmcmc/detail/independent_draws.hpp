@@ -27,7 +27,7 @@ struct MeasuredPosterior {
   double pareto_shape = 0.0;
   /// Separate modes that the searches have seen or the fit has.
   Index modes = 1;
-  /// Effective draws that chose beta, for each of them.
+  /// Effective draws that chose beta; where there are several modes, for each of them and one more.
   double draws_a_mode = 0.0;
   /// What the draws are from, in unbounded coordinates.
   ReferenceDensity reference;
