@@ -5,6 +5,7 @@
 
 #include "build_info.hpp"
 #include "corner_tables.hpp"
+#include "io/interrupt.hpp"
 #include "models/child.hpp"
 
 namespace examples {
@@ -42,6 +43,20 @@ void write_stages(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result
   }
 }
 
+/// predict(), whose failures say what is in place.
+Prediction predict_last(const std::vector<tmcmc::Result>& runs, const Model& model, long draws,
+                        const std::function<void(tmcmc::Index)>& begin) {
+  const std::string kept = "all results but samples_predictive are in place";
+  try {
+    return predict(runs, model, draws, begin);
+  } catch (io::Interrupted& interrupted) {
+    interrupted.kept = kept;
+    throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}; {}", error.what(), kept));
+  }
+}
+
 }  // namespace
 
 OwnFigures::OwnFigures(std::string directory) : directory_(std::move(directory)) {
@@ -56,31 +71,45 @@ OwnFigures::OwnFigures(std::string directory) : directory_(std::move(directory))
   }
 }
 
-void OwnFigures::make(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior,
+/// Whether it is drawn; a warning if not.
+bool OwnFigures::draw(const std::string& figure) const {
+  const std::string& source = experiments::source_directory();
+  const auto end =
+      models::run_child({source + "/figures/draw", figure, directory_, directory_}, source, 60.0);
+  const bool is_drawn = end.kind == models::ChildEnd::Kind::exited && end.value == 0;
+  if (!is_drawn) {
+    experiments::warn(
+        fmt::format("{}: not drawn: expected gnuplot (make deps); the tables are there", path(figure)));
+  }
+  return is_drawn;
+}
+
+void OwnFigures::make(const std::vector<tmcmc::Result>& runs, const Model& model, long draws,
+                      const std::function<void(tmcmc::Index)>& begin,
                       const experiments::Report& report) const {
   if (directory_.empty()) {
     return;
   }
   constexpr long bins = 30;
-  const auto path = [&](const char* name) { return directory_ + "/" + name; };
   experiments::CornerTables tables(path("corner.csv"), path("corner_marginals.csv"),
                                    path("corner_summary.csv"));
   auto stages = experiments::open_csv(path("stages.csv"), {"run", "stage", "beta", "effective_sample_size",
                                                            "acceptance_rate", "log_evidence"});
-  tables.write(pooled(runs, prior), bins);
+  tables.write(pooled(runs, model.prior), bins);
   write_stages(stages, runs);
   io::commit_all(tables.joint, tables.marginals, tables.summary, stages);
-  const std::string& source = experiments::source_directory();
-  for (const char* figure : {"samples_corner", "samples_marginals", "samples_stages"}) {
-    const auto end =
-        models::run_child({source + "/figures/draw", figure, directory_, directory_}, source, 60.0);
-    if (end.kind != models::ChildEnd::Kind::exited || end.value != 0) {
-      experiments::warn(
-          fmt::format("{}: not drawn: expected gnuplot (make deps); the tables are there", path(figure)));
-      return;
-    }
+  bool is_drawn = draw("samples_corner") && draw("samples_marginals") && draw("samples_stages");
+  if (model.compared.outputs && draws > 0) {
+    const Prediction prediction = predict_last(runs, model, draws, begin);
+    auto csv = experiments::open_csv(path("predictive.csv"), prediction_columns());
+    write_prediction(csv, prediction);
+    io::commit_all(csv);
+    print_prediction(report, prediction);
+    is_drawn = is_drawn && draw("samples_predictive");
   }
-  report("figures and their tables: {}\n", directory_);
+  if (is_drawn) {
+    report("figures and their tables: {}\n", directory_);
+  }
 }
 
 }  // namespace examples

@@ -86,11 +86,12 @@ int main(int argc, char** argv) {
     RunProgress progress(problem.runs, problem.evaluations, !report.quiet() && ranks.rank() == 0);
     const auto count = [&](Eigen::Index rows) { progress.advance(rows * ranks.size()); };
     const auto note = [&](const std::string& text) { report("{}\n", text); };
-    const Model model = make_model(problem, {note, count});
-    const auto shared = ranks.share(model.log_likelihood);
+    Model model = make_model(problem, {note, count});
+    const auto shared = ranks.share(model.log_likelihood, model.compared.outputs);
     if (!shared) {
       return;  // this rank has evaluated for rank 0
     }
+    model.compared.outputs = shared->outputs;
 
     // 2. All outputs are opened before the first call of the model.
     auto csv = open_csv(problem.output, sample_columns(model.prior, problem.runs));
@@ -113,7 +114,8 @@ int main(int argc, char** argv) {
       run.key.run = static_cast<std::uint32_t>(r - 1);
       progress.begin(r);
       const std::string kept = checkpoint_of(checkpoint, r);
-      results.push_back(run_kept(run, *shared, kept, [&](const auto& stage) { progress.update(stage); }));
+      results.push_back(
+          run_kept(run, shared->log_likelihood, kept, [&](const auto& stage) { progress.update(stage); }));
       require_completed(results.back(), kept);
     }
 
@@ -126,7 +128,9 @@ int main(int argc, char** argv) {
       storage::write_inference_data(*netcdf, inference_data(results, model, problem.seed));
     }
     io::commit_all(csv, summary_csv, netcdf);
-    figures.make(results, model.prior, report);
+    figures.make(
+        results, model, problem.predictive_draws, [&](auto points) { progress.begin_prediction(points); },
+        report);
     for (long r = 1; r <= problem.runs; ++r) {
       storage::remove_checkpoint(checkpoint_of(checkpoint, r));
     }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "models/forward_model.hpp"
+#include "problem/parameters.hpp"
 #include "problem_options.hpp"
 #include "storage/inference_data.hpp"
 #include "tmcmc/sampler.hpp"
@@ -22,21 +24,48 @@ struct Measurements {
       pointwise = {};
 };
 
+/// The outputs of a model that its likelihood compares with the measurements.
+struct ComparedOutputs {
+  /// Of points of all parameters, as many as there are values in Measurements::observed and in their order; empty for a model that
+  /// gives the log-likelihood alone.
+  models::ForwardModel outputs = {};
+  /// Standard deviations of the errors of measurements at a point, in the units of its outputs.
+  std::function<Eigen::RowVectorXd(const Eigen::RowVectorXd& point, const Eigen::RowVectorXd& outputs)>
+      noise = {};
+  std::vector<std::string> labels = {};  ///< of the measurements, short; empty: their numbers
+};
+
 /// A log-likelihood, its prior, and what is known of both.
 struct Model {
   tmcmc::Prior prior;                   ///< of the parameters, in the order of the columns of the points
   tmcmc::LogLikelihood log_likelihood;  ///< of a batch of points
   std::string description;         ///< one line that names all that the values depend on, for the checkpoint
   Measurements measurements = {};  ///< empty for a program that keeps its data to itself
+  ComparedOutputs compared = {};   ///< empty likewise
 };
 
 /// Who follows a run.
 struct Listeners {
   /// Told what the user should know.
   std::function<void(const std::string& text)> note;
-  /// Told, from any thread, how many log-likelihoods a call of the model has given.
+  /// Told, from any thread, of how many points a call of the model has given log-likelihoods or outputs.
   std::function<void(tmcmc::Index rows)> evaluated;
 };
+
+/// The prior of the problem file, or that of the files of the options.
+/// \throws io::InputError naming file, line, key or column, and value
+[[nodiscard]] tmcmc::Prior prior_of(const ProblemOptions& options, const problem::ParameterRules& rules);
+
+/// The same log-likelihood or model, whose rows are counted.
+template <class Values>
+[[nodiscard]] auto counted(
+    std::function<void(const Eigen::Ref<const Eigen::MatrixXd>&, Eigen::Ref<Values>)> model,
+    const Listeners& listeners) {
+  return decltype(model)([model, evaluated = listeners.evaluated](const auto& points, auto values) {
+    model(points, values);
+    evaluated(points.rows());
+  });
+}
 
 /// Names of the models in C++, the default first.
 [[nodiscard]] std::vector<std::string> built_in_names();

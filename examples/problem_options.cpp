@@ -128,7 +128,13 @@ void ProblemOptions::add_run_and_outputs(CLI::App& app) {
   add(app, "output", "summary", "--summary", summary, "FILE", text,
       "CSV: a row a parameter with mean, sd, quantiles, effective sample size and R-hat");
   add(app, "output", "figures", "--figures", figures, "DIRECTORY", text,
-      "Directory for a corner plot, marginals, and the stages, drawn by gnuplot, with their tables");
+      "Directory for a corner plot, marginals, the stages, and of a model with outputs the measurements in "
+      "their "
+      "posterior predictive bands, drawn by gnuplot, with their tables");
+  add(app, "output", "predictive_draws", "--predictive-draws", predictive_draws, "", count(0, 100000),
+      "Draws of the posterior at which --figures evaluates a model with outputs again for these bands, "
+      "beyond "
+      "--evaluations; 0: without them");
   add(app, "output", "checkpoint", "--checkpoint", checkpoint, "FILE", text,
       "Progress after each stage; the same command goes on from it. Without it: the name of --output with "
       ".checkpoint, if --output is a file");

@@ -47,11 +47,12 @@ class ProblemOptions {
   std::uint64_t seed = 1;    ///< of all
   int threads = 0;           ///< 0: as many as the machine has
 
-  std::string output;      ///< CSV of the samples
-  std::string netcdf;      ///< samples, stages, observations
-  std::string figures;     ///< directory of figures and their tables
-  std::string summary;     ///< CSV of the table that is printed
-  std::string checkpoint;  ///< kept stages
+  std::string output;           ///< CSV of the samples
+  std::string netcdf;           ///< samples, stages, observations
+  std::string figures;          ///< directory of figures and their tables
+  long predictive_draws = 500;  ///< of the posterior, at which the model is evaluated for them; 0: none
+  std::string summary;          ///< CSV of the table that is printed
+  std::string checkpoint;       ///< kept stages
 
   /// The file; nothing without one.
   [[nodiscard]] const std::optional<problem::File>& file() const { return file_; }

@@ -42,6 +42,11 @@ void RunProgress::begin(long run) {
   done_ = 0;
 }
 
+void RunProgress::begin_prediction(tmcmc::Index evaluations) {
+  done_ = 0;
+  prediction_ = evaluations;
+}
+
 void RunProgress::update(const tmcmc::Progress& progress) {
   stage_ = progress.stages.size();
   beta_ = progress.state.beta;
@@ -50,6 +55,11 @@ void RunProgress::update(const tmcmc::Progress& progress) {
 
 void RunProgress::draw() const {
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
+  if (const long all = prediction_; all > 0) {
+    io::redraw_line(fmt::format("posterior predictive, {} of {} evaluations, {:.0f} s",
+                                std::min(done_.load(), all), all, time.count()));
+    return;
+  }
   io::redraw_line(fmt::format("{}stage {}, beta {:.3g}, {} of {} evaluations, {:.0f} s",
                               runs_ > 1 ? fmt::format("run {} of {}, ", run_.load(), runs_) : "",
                               stage_.load() + 1, beta_.load(), std::min(done_.load(), evaluations_),

@@ -26,7 +26,9 @@ class RunProgress {
 
   /// A run begins, counted from 1.
   void begin(long run);
-  /// So many log-likelihoods are done; from any thread.
+  /// After the runs the model is evaluated again, so many times, for what the posterior predicts.
+  void begin_prediction(tmcmc::Index evaluations);
+  /// So many evaluations are done; from any thread.
   void advance(tmcmc::Index evaluations) { done_ += evaluations; }
   /// A stage has ended.
   void update(const tmcmc::Progress& progress);
@@ -37,7 +39,8 @@ class RunProgress {
   long runs_;
   long evaluations_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::atomic<long> done_ = 0;  // of the run
+  std::atomic<long> done_ = 0;        // of the run or of the prediction
+  std::atomic<long> prediction_ = 0;  // its evaluations; 0 during the runs
   std::atomic<long> run_ = 1;
   std::atomic<std::size_t> stage_ = 0;
   std::atomic<double> beta_ = 0.0;

@@ -45,15 +45,26 @@ const std::vector<std::string>& FrameLikelihood::parameter_names() {
   return names;
 }
 
-Eigen::MatrixXd FrameLikelihood::pointwise(const Eigen::Ref<const Eigen::MatrixXd>& points) const {
+Eigen::MatrixXd FrameLikelihood::frequencies_hz(const Eigen::Ref<const Eigen::MatrixXd>& points) const {
   Eigen::MatrixXd result(points.rows(), static_cast<Eigen::Index>(observations_.mode.size()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const auto model = frame_frequencies_hz(points(i, 0), points(i, 1));
+    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+      const long mode = observations_.mode[static_cast<std::size_t>(k)];
+      result(i, k) = model[static_cast<std::size_t>(mode - 1)];
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd FrameLikelihood::pointwise(const Eigen::Ref<const Eigen::MatrixXd>& points) const {
+  Eigen::MatrixXd result = frequencies_hz(points);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const double noise = points(i, 2);
     for (Eigen::Index k = 0; k < result.cols(); ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const double frequency = model[static_cast<std::size_t>(observations_.mode[at] - 1)];
-      const double residual = (observations_.frequency_hz[at] / frequency - 1.0) / noise;
+      const double frequency = result(i, k);
+      const double measured = observations_.frequency_hz[static_cast<std::size_t>(k)];
+      const double residual = (measured / frequency - 1.0) / noise;
       result(i, k) = -(0.5 * (log_2_pi + residual * residual) + portable_math::log(noise * frequency));
     }
   }

@@ -44,6 +44,9 @@ class FrameLikelihood {
   /// The same of each observation alone: n x observations, whose rows add up to the values above.
   [[nodiscard]] Eigen::MatrixXd pointwise(const Eigen::Ref<const Eigen::MatrixXd>& points) const;
 
+  /// Natural frequencies of the model, Hz, that the observations are compared with: n x observations.
+  [[nodiscard]] Eigen::MatrixXd frequencies_hz(const Eigen::Ref<const Eigen::MatrixXd>& points) const;
+
   [[nodiscard]] const FrameObservations& observations() const { return observations_; }
 
  private:

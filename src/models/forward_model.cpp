@@ -42,20 +42,26 @@ double GaussianData::log_likelihood(const Eigen::Ref<const Eigen::VectorXd>& out
   return sum - 0.5 * static_cast<double>(observations.size()) * portable_math::log(2.0 * std::numbers::pi);
 }
 
+ForwardModel without_noise(ForwardModel model, std::optional<Eigen::Index> noise_column) {
+  if (!noise_column) {
+    return model;
+  }
+  return [model = std::move(model), noise = *noise_column](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                                           Eigen::Ref<Eigen::MatrixXd> outputs) {
+    const Eigen::Index after = points.cols() - noise - 1;
+    Eigen::MatrixXd seen(points.rows(), points.cols() - 1);
+    seen << points.leftCols(noise), points.rightCols(after);
+    model(seen, outputs);
+  };
+}
+
 tmcmc::LogLikelihood gaussian_likelihood(ForwardModel model, GaussianData data) {
   data.validate();
+  model = without_noise(std::move(model), data.noise_column);
   return [model = std::move(model), data = std::move(data)](const Eigen::Ref<const Eigen::MatrixXd>& points,
                                                             Eigen::Ref<Eigen::VectorXd> values) {
     Eigen::MatrixXd outputs(points.rows(), static_cast<Eigen::Index>(data.observations.size()));
-    if (!data.noise_column) {
-      model(points, outputs);
-    } else {
-      const Eigen::Index noise = *data.noise_column;
-      const Eigen::Index after = points.cols() - noise - 1;
-      Eigen::MatrixXd seen(points.rows(), points.cols() - 1);
-      seen << points.leftCols(noise), points.rightCols(after);
-      model(seen, outputs);
-    }
+    model(points, outputs);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       values[i] = data.log_likelihood(outputs.row(i).transpose(),
                                       data.noise_column ? points(i, *data.noise_column) : 1.0);

@@ -33,6 +33,10 @@ struct GaussianData {
                                       double noise = 1.0) const;
 };
 
+/// The same model for points that have the column of the noise too, which it does not see.
+/// \param noise_column  GaussianData::noise_column; none: the model as it is
+[[nodiscard]] ForwardModel without_noise(ForwardModel model, std::optional<Eigen::Index> noise_column);
+
 /// The log-likelihood of the data under a model with as many outputs as there are observations.
 /// \throws errors::InvalidValue as GaussianData::validate().
 [[nodiscard]] tmcmc::LogLikelihood gaussian_likelihood(ForwardModel model, GaussianData data);

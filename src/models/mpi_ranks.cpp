@@ -1,5 +1,6 @@
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <exception>
@@ -19,9 +20,10 @@ namespace {
 
 using tmcmc::Index;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Header = std::array<long, 2>;  // rows and columns of a batch
+/// Rows and columns of a batch, and the outputs of a point, 0 for its log-likelihood.
+using Header = std::array<long, 3>;
 
-constexpr Header no_more = {-1, 0};
+constexpr Header no_more = {-1, 0, 0};
 
 using Text = std::array<char, 4096>;  // of an exception; what is longer is cut off
 
@@ -43,7 +45,7 @@ void wait_for(MPI_Request request) {
 
 Header broadcast(Header header) {
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibcast(header.data(), 2, MPI_LONG, 0, MPI_COMM_WORLD, &request);
+  MPI_Ibcast(header.data(), 3, MPI_LONG, 0, MPI_COMM_WORLD, &request);
   wait_for(request);
   return header;
 }
@@ -59,17 +61,27 @@ struct Parts {
   std::vector<int> counts, begins;
 };
 
+/// Fills the values of this rank's points, a row a point.
+void fill(Eigen::MatrixXd& values, const SharedModel& model, const Eigen::MatrixXd& points, long outputs) {
+  if (outputs == 0) {
+    model.log_likelihood(points, values.col(0));
+  } else {
+    model.outputs(points, values);
+  }
+}
+
 /// Evaluates this rank's part of a batch; every rank calls it after the header.
-/// \param points, log_likelihood  on rank 0 the batch
+/// \param points, all_values  on rank 0 the batch, a row after the other
 /// \throws on rank 0, for the lowest rank whose model failed.
-void evaluate(const tmcmc::LogLikelihood& model, const Header& header, int rank, int ranks,
-              const Rows& points, double* log_likelihood) {
-  const auto [rows, columns] = header;
+void evaluate(const SharedModel& model, const Header& header, int rank, int ranks, const Rows& points,
+              double* all_values) {
+  const auto [rows, columns, outputs] = header;
+  const long width = std::max(outputs, 1L);
   const Parts of_points(rows, columns, ranks);
-  const Parts of_values(rows, 1, ranks);
-  const int count = of_values.counts[static_cast<std::size_t>(rank)];
+  const Parts of_values(rows, width, ranks);
+  const long count = of_values.counts[static_cast<std::size_t>(rank)] / width;
   Rows mine(count, columns);
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
+  Eigen::MatrixXd values = Eigen::MatrixXd::Constant(count, width, std::numeric_limits<double>::quiet_NaN());
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iscatterv(points.data(), of_points.counts.data(), of_points.begins.data(), MPI_DOUBLE, mine.data(),
                 static_cast<int>(mine.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
@@ -78,15 +90,16 @@ void evaluate(const tmcmc::LogLikelihood& model, const Header& header, int rank,
   Text text{};  // empty unless the model fails
   try {
     if (count > 0) {
-      model(Eigen::MatrixXd(mine), values);
+      fill(values, model, mine, outputs);
     }
   } catch (const std::exception& error) {
     failure = std::current_exception();
     const std::string what = std::string(error.what()) + ' ';  // not empty
     what.copy(text.data(), text.size() - 1);
   }
-  MPI_Igatherv(values.data(), count, MPI_DOUBLE, log_likelihood, of_values.counts.data(),
-               of_values.begins.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
+  const Rows by_rows = values;
+  MPI_Igatherv(by_rows.data(), static_cast<int>(by_rows.size()), MPI_DOUBLE, all_values,
+               of_values.counts.data(), of_values.begins.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD, &request);
   wait_for(request);
   std::vector<Text> texts(static_cast<std::size_t>(rank == 0 ? ranks : 0));
   MPI_Igather(&text, sizeof text, MPI_CHAR, texts.data(), sizeof text, MPI_CHAR, 0, MPI_COMM_WORLD, &request);
@@ -120,11 +133,12 @@ Ranks::~Ranks() {
     if (rank_ == 0) {
       broadcast(no_more);
     } else if (!is_done_) {
-      serve([this](const auto&, auto) {
+      const auto refuse = [this](const auto&, auto) {
         throw std::runtime_error(
             "rank " + std::to_string(rank_) +
             " could not begin: expected the program to begin there too, and with one rank");
-      });
+      };
+      serve({refuse, refuse});
     }
     MPI_Finalize();
   } catch (const io::Interrupted&) {
@@ -132,7 +146,7 @@ Ranks::~Ranks() {
   }
 }
 
-void Ranks::serve(const tmcmc::LogLikelihood& model) {
+void Ranks::serve(const SharedModel& model) {
   for (Header header = broadcast(no_more); header != no_more; header = broadcast(no_more)) {
     evaluate(model, header, rank_, size_, {}, nullptr);
   }
@@ -140,20 +154,40 @@ void Ranks::serve(const tmcmc::LogLikelihood& model) {
 }
 
 std::optional<tmcmc::LogLikelihood> Ranks::share(const tmcmc::LogLikelihood& model) {
+  const auto shared = share(model, {});
+  return shared ? std::optional(shared->log_likelihood) : std::nullopt;
+}
+
+std::optional<SharedModel> Ranks::share(const tmcmc::LogLikelihood& model, const ForwardModel& outputs) {
+  const SharedModel own{model, outputs};
   if (rank_ > 0) {
-    serve(model);
+    serve(own);
     return std::nullopt;
   }
-  return [this, model, mutex = std::make_shared<std::mutex>()](
-             const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> log_likelihood) {
-    if (points.size() > std::numeric_limits<int>::max()) {
-      throw std::length_error("batch of " + std::to_string(points.size()) +
-                              " numbers: expected fewer than 2^31");
+  const auto together = [this, own, mutex = std::make_shared<std::mutex>()](const Rows& points, long columns,
+                                                                            double* values) {
+    if (std::max(points.cols(), columns) * points.rows() > std::numeric_limits<int>::max()) {
+      throw std::length_error("batch of " + std::to_string(points.rows()) + " points of " +
+                              std::to_string(std::max(points.cols(), columns)) +
+                              " numbers: expected fewer than 2^31 numbers");
     }
     const std::lock_guard lock(*mutex);
-    const Header header = broadcast({points.rows(), points.cols()});
-    evaluate(model, header, rank_, size_, points, log_likelihood.data());
+    evaluate(own, broadcast({points.rows(), points.cols(), columns}), rank_, size_, points, values);
   };
+  SharedModel shared;
+  shared.log_likelihood = [together](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                     Eigen::Ref<Eigen::VectorXd> values) {
+    together(points, 0, values.data());
+  };
+  if (outputs) {
+    shared.outputs = [together](const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                Eigen::Ref<Eigen::MatrixXd> values) {
+      Rows rows(values.rows(), values.cols());
+      together(points, rows.cols(), rows.data());
+      values = rows;
+    };
+  }
+  return shared;
 }
 
 }  // namespace models

@@ -15,7 +15,6 @@ namespace {
 
 using tmcmc::Index;
 using Points = Eigen::Ref<const Eigen::MatrixXd>;
-using Values = Eigen::Ref<Eigen::VectorXd>;
 
 /// The exception of the lowest rows.
 class FirstFailure {
@@ -42,9 +41,9 @@ class FirstFailure {
   Index first_row_ = 0;
 };
 
-void evaluate(const tmcmc::LogLikelihood& model, const ParallelOptions& options, const Points& points,
-              Values values) {
-  const Index n = points.rows();
+/// Calls evaluate(first, count) for batches of n rows.
+template <class Evaluate>
+void for_batches(Index n, const ParallelOptions& options, const Evaluate& evaluate) {
   const Index share = (n + options.calls - 1) / options.calls;
   const Index rows = options.batch_rows > 0 ? std::min(options.batch_rows, n) : share;
   const Index batches = (n + rows - 1) / rows;
@@ -55,7 +54,7 @@ void evaluate(const tmcmc::LogLikelihood& model, const ParallelOptions& options,
       const Index first = batch * rows;
       const Index count = std::min(rows, n - first);
       try {
-        model(points.middleRows(first, count), values.segment(first, count));
+        evaluate(first, count);
       } catch (...) {
         failure.note(first);
       }
@@ -71,18 +70,35 @@ void evaluate(const tmcmc::LogLikelihood& model, const ParallelOptions& options,
   failure.rethrow();
 }
 
-}  // namespace
-
-tmcmc::LogLikelihood parallel_batches(tmcmc::LogLikelihood model, const ParallelOptions& options) {
+void validate(const ParallelOptions& options) {
   if (options.calls < 1) {
     throw errors::InvalidValue("calls", options.calls, "at least 1");
   }
   if (options.batch_rows < 0) {
     throw errors::InvalidValue("batch_rows", options.batch_rows, "a number of rows, or 0 for equal shares");
   }
-  return [model = std::move(model), options](const Points& points, Values values) {
+}
+
+}  // namespace
+
+tmcmc::LogLikelihood parallel_batches(tmcmc::LogLikelihood model, const ParallelOptions& options) {
+  validate(options);
+  return [model = std::move(model), options](const Points& points, Eigen::Ref<Eigen::VectorXd> values) {
     if (points.rows() > 0) {
-      evaluate(model, options, points, values);
+      for_batches(points.rows(), options, [&](Index first, Index count) {
+        model(points.middleRows(first, count), values.segment(first, count));
+      });
+    }
+  };
+}
+
+ForwardModel parallel_outputs(ForwardModel model, const ParallelOptions& options) {
+  validate(options);
+  return [model = std::move(model), options](const Points& points, Eigen::Ref<Eigen::MatrixXd> outputs) {
+    if (points.rows() > 0) {
+      for_batches(points.rows(), options, [&](Index first, Index count) {
+        model(points.middleRows(first, count), outputs.middleRows(first, count));
+      });
     }
   };
 }

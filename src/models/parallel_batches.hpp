@@ -2,6 +2,7 @@
 /// One batch of points evaluated by several calls of a model at a time.
 #pragma once
 
+#include "models/forward_model.hpp"
 #include "tmcmc/types.hpp"
 
 namespace models {
@@ -21,5 +22,9 @@ struct ParallelOptions {
 /// \throws errors::InvalidValue for calls < 1 or batch_rows < 0.
 [[nodiscard]] tmcmc::LogLikelihood parallel_batches(tmcmc::LogLikelihood model,
                                                     const ParallelOptions& options);
+
+/// The same of a model with outputs.
+/// \throws as parallel_batches
+[[nodiscard]] ForwardModel parallel_outputs(ForwardModel model, const ParallelOptions& options);
 
 }  // namespace models

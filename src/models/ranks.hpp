@@ -5,9 +5,16 @@
 
 #include <optional>
 
+#include "models/forward_model.hpp"
 #include "tmcmc/sampler.hpp"
 
 namespace models {
+
+/// A model as all ranks evaluate it together.
+struct SharedModel {
+  tmcmc::LogLikelihood log_likelihood;
+  ForwardModel outputs;  ///< empty if the model has none
+};
 
 /// MPI from construction to destruction: one object a process, made in main before anything else
 /// and outliving every function that share returns. Rank 0 runs the program; the others evaluate
@@ -40,8 +47,13 @@ class Ranks {
   /// io::Interrupted when a signal has come.
   [[nodiscard]] std::optional<tmcmc::LogLikelihood> share(const tmcmc::LogLikelihood& model);
 
+  /// The same of a model that is asked for its outputs too, which are shared out by rows likewise.
+  /// Instead of the other, once. \param outputs  empty for none
+  [[nodiscard]] std::optional<SharedModel> share(const tmcmc::LogLikelihood& model,
+                                                 const ForwardModel& outputs);
+
  private:
-  void serve(const tmcmc::LogLikelihood& model);
+  void serve(const SharedModel& model);
 
   int rank_ = 0;
   int size_ = 1;

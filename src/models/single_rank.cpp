@@ -10,4 +10,8 @@ std::optional<tmcmc::LogLikelihood> Ranks::share(const tmcmc::LogLikelihood& mod
   return model;
 }
 
+std::optional<SharedModel> Ranks::share(const tmcmc::LogLikelihood& model, const ForwardModel& outputs) {
+  return SharedModel{model, outputs};
+}
+
 }  // namespace models

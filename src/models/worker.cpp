@@ -19,6 +19,11 @@ namespace {
 
 constexpr std::size_t longest_answer = 80;
 
+/// Bytes that the numbers of a line may take.
+std::size_t longest_line(std::size_t outputs) {
+  return 4096 + 64 * outputs;
+}
+
 std::string text_of(const Eigen::Ref<const Eigen::MatrixXd>& points) {
   std::string text = fmt::format("{}\n", points.rows());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -111,7 +116,8 @@ void Worker::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
         read_line(line, options.outputs, values.row(row));
         return ++row == points.rows();
       };
-      process->exchange(text, deadline_after(options.timeout_seconds), take_line);
+      process->exchange(text, deadline_after(options.timeout_seconds), longest_line(options.outputs),
+                        take_line);
       state_->idle.give_back(std::move(process));
       return;
     } catch (const WorkerEnded& ended) {

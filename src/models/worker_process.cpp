@@ -22,8 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds longest_wait(50);  // between two looks at the interrupt flag
-constexpr std::size_t longest_line = 4096;
-constexpr std::chrono::seconds time_to_end(1);  // of a worker whose input or output has ended
+constexpr std::chrono::seconds time_to_end(1);         // of a worker whose input or output has ended
 
 struct Pipe {
   Descriptor reading;
@@ -86,7 +85,8 @@ WorkerProcess::~WorkerProcess() {
 }
 
 /// Whether a line was the last. Lines behind it are taken too.
-bool WorkerProcess::take_lines(const std::function<bool(std::string_view)>& take_line) {
+bool WorkerProcess::take_lines(std::size_t longest_line,
+                               const std::function<bool(std::string_view)>& take_line) {
   bool is_complete = false;
   std::size_t begin = 0;
   for (std::size_t end = unread_.find('\n'); end != unread_.npos; end = unread_.find('\n', begin)) {
@@ -125,7 +125,7 @@ bool WorkerProcess::send(std::string_view& text) {
   return count >= 0 || is_not_yet(errno);
 }
 
-void WorkerProcess::exchange(std::string_view text, Clock::time_point deadline,
+void WorkerProcess::exchange(std::string_view text, Clock::time_point deadline, std::size_t longest_line,
                              const std::function<bool(std::string_view)>& take_line) {
   try {
     if (!receive()) {
@@ -149,7 +149,7 @@ void WorkerProcess::exchange(std::string_view text, Clock::time_point deadline,
       }
       const bool reads = waited[1].revents == 0 || send(text);
       const bool writes = waited[0].revents == 0 || receive();
-      is_complete = take_lines(take_line) || is_complete;
+      is_complete = take_lines(longest_line, take_line) || is_complete;
       if ((!reads || !writes) && !(is_complete && text.empty())) {
         throw_ended();
       }

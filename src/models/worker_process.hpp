@@ -53,14 +53,15 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   /// Writes a text and reads lines at the same time, so that neither side waits for a full pipe.
+  /// \param longest_line  bytes of a line without an end that are taken, before it is refused
   /// \param take_line  called for each line without its end; true if it was the last. What else has been written is handed over too.
   /// \throws ModelError if it has written something before, a very long line, or has closed a stream and goes on; WorkerEnded if it has ended or the deadline has passed; io::Interrupted if a signal has come; what take_line throws.
   ///         In all these cases its group has been killed.
   void exchange(std::string_view text, std::chrono::steady_clock::time_point deadline,
-                const std::function<bool(std::string_view line)>& take_line);
+                std::size_t longest_line, const std::function<bool(std::string_view line)>& take_line);
 
  private:
-  bool take_lines(const std::function<bool(std::string_view line)>& take_line);
+  bool take_lines(std::size_t longest_line, const std::function<bool(std::string_view line)>& take_line);
   [[noreturn]] void throw_ended();
   bool receive();
   bool send(std::string_view& text);

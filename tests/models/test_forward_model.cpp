@@ -124,3 +124,33 @@ TEST_CASE("a worker writes a line of outputs for each point", "[models][worker]"
                                       "-inf; the first of 2 points (a = 1, b = 2)"));
   }
 }
+
+TEST_CASE("a worker may write a long line of outputs", "[models][worker]") {
+  constexpr Eigen::Index m = 1000;
+  const TemporaryDirectory directory;
+  const models::Worker model(
+      {.program =
+           script(directory,
+                  "#!/bin/sh\nread -r n\nfor i in 1 2; do read -r a; awk 'BEGIN { for (k = 1; k < 1000; k++) "
+                  "printf \"%d.12345678901234567,\", k; print 1000.5 }'\ndone\nread -r n\n"),
+       .parameter_names = {"a", "b"},
+       .outputs = m});
+  Eigen::MatrixXd outputs(2, m);
+  model.evaluate(points, outputs);
+  CHECK(outputs(0, 0) == 1.12345678901234567);
+  CHECK(outputs(1, m - 2) == 999.12345678901234567);
+  CHECK(outputs(1, m - 1) == 1000.5);
+}
+
+TEST_CASE("a model without the noise gets the other columns", "[models]") {
+  const models::ForwardModel columns = [](const auto& p, auto outputs) { outputs = p; };
+  const Eigen::MatrixXd all = (Eigen::MatrixXd(2, 3) << 1.0, 0.2, 2.0, 3.0, 7.0, 4.0).finished();
+  Eigen::MatrixXd two(2, 2), three(2, 3);
+  for (const Eigen::Index noise : {0, 1, 2}) {
+    models::without_noise(columns, noise)(all, two);
+    CHECK(two.col(0) == all.col(noise == 0 ? 1 : 0));
+    CHECK(two.col(1) == all.col(noise == 2 ? 1 : 2));
+  }
+  models::without_noise(columns, std::nullopt)(all, three);
+  CHECK(three == all);
+}

@@ -8,6 +8,7 @@
 #include "models/parallel_batches.hpp"
 
 using models::parallel_batches;
+using models::parallel_outputs;
 
 namespace {
 
@@ -32,6 +33,28 @@ TEST_CASE("a batch has the same values however it is cut", "[models][parallel]")
   }
   Eigen::VectorXd none(0);
   parallel_batches(sum_of_squares, {3, 0})(points.topRows(0), none);
+}
+
+TEST_CASE("a batch has the same outputs however it is cut", "[models][parallel]") {
+  const Eigen::MatrixXd points = Eigen::MatrixXd::Random(103, 3);
+  std::atomic<Eigen::Index> longest = 0;
+  const models::ForwardModel model = [&](const Points& some, Eigen::Ref<Eigen::MatrixXd> outputs) {
+    for (Eigen::Index seen = longest;
+         seen < some.rows() && !longest.compare_exchange_weak(seen, some.rows());) {
+    }
+    outputs = some.rowwise().reverse();
+  };
+  for (const int calls : {1, 2, 7, 200}) {
+    for (const Eigen::Index rows : {0, 1, 10, 103, 1000}) {
+      Eigen::MatrixXd outputs(103, 3);
+      longest = 0;
+      parallel_outputs(model, {calls, rows})(points, outputs);
+      CHECK(outputs == points.rowwise().reverse());
+      CHECK(longest == std::min<Eigen::Index>(rows > 0 ? rows : (103 + calls - 1) / calls, 103));
+    }
+  }
+  Eigen::MatrixXd none(0, 3);
+  parallel_outputs(model, {3, 0})(points.topRows(0), none);
 }
 
 TEST_CASE("no call gets more rows than allowed, and so many run at a time", "[models][parallel]") {
@@ -77,4 +100,5 @@ TEST_CASE("the failure of the lowest rows is thrown, and nothing begins after a 
 TEST_CASE("calls and rows that make no sense are refused", "[models][parallel]") {
   CHECK_THROWS_AS(parallel_batches(sum_of_squares, {0, 0}), errors::InvalidValue);
   CHECK_THROWS_AS(parallel_batches(sum_of_squares, {1, -1}), errors::InvalidValue);
+  CHECK_THROWS_AS(parallel_outputs({}, {0, 0}), errors::InvalidValue);
 }

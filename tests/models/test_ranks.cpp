@@ -37,3 +37,15 @@ TEST_CASE("what the model throws comes through", "[models][ranks]") {
   Eigen::VectorXd values(3);
   CHECK_THROWS_AS((*shared)(points, values), tmcmc::SamplingError);
 }
+
+TEST_CASE("outputs are shared too, if the model has any", "[models][ranks]") {
+  const tmcmc::Problem ridge = problems::ridge();
+  const auto shared =
+      ranks().share(ridge.log_likelihood, [](const auto& points, auto outputs) { outputs = 2.0 * points; });
+  REQUIRE(shared);
+  const Eigen::MatrixXd points = Eigen::MatrixXd::Random(5, 2);
+  Eigen::MatrixXd outputs(5, 2);
+  shared->outputs(points, outputs);
+  CHECK(outputs == 2.0 * points);
+  CHECK_FALSE(ranks().share(ridge.log_likelihood, {})->outputs);
+}

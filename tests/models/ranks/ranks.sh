@@ -62,6 +62,40 @@ check "the report once" test "$(ranks 3 "$bin/own_model" --evaluations 2600 | gr
 check "--help once" test "$(ranks 3 "$bin/own_model" --help | grep -c '^Usage')" = 1
 rm -f ranks.csv
 
+# The posterior predictive, whose evaluations all ranks share; a model that fails in it ends no rank too early.
+cat >outputs.py <<'PY'
+#!/usr/bin/env python3
+import os, sys
+for line in sys.stdin:
+    n = int(line)
+    points = [[float(x) for x in sys.stdin.readline().split(",")] for _ in range(n)]
+    with open(f"{os.environ['ROWS']}.{os.environ.get('OMPI_COMM_WORLD_RANK', 0)}", "a") as file:
+        file.write(f"{n}\n" * n)
+    if "BREAKS" in os.environ and os.path.exists(os.environ["DRAWN"]):
+        sys.exit(5)
+    print(*[f"{a!r},{a + b!r}" for a, b in points], sep="\n", flush=True)
+PY
+chmod +x outputs.py
+printf '%s\n' '[model]' 'worker = "outputs.py"' '[data]' 'observation = [1, 3]' 'standard_deviation = 0.1' '[parameters]' \
+  'a = {lower = -5, upper = 5}' 'b = {lower = -5, upper = 5}' '[output]' 'samples = "outputs.csv"' >outputs.toml
+outputs="$bin/own_model outputs.toml --evaluations 2600 --threads 1 --quiet --figures"
+export ROWS=$work/rows DRAWN=$work/failed/samples_stages.png
+$outputs alone
+$own --figures frame
+for n in 1 2 3; do
+  rm -f rows.*
+  ranks $n $outputs together
+  check "posterior predictive on $n ranks" cmp alone/predictive.csv together/predictive.csv
+  check "every rank evaluates: $(wc -l rows.*)" test "$(ls rows.* | wc -l)" = $n -a "$(tail -qn 1 rows.* | awk '$1 > 100 / '$n' + 1' | wc -l)" = 0
+  ranks $n $own --figures together
+  check "that of a model in C++ on $n ranks" cmp frame/predictive.csv together/predictive.csv
+done
+BREAKS=1 ranks 3 $outputs failed 2>err
+check "a failure in it: status $?" test $? != 0
+check "a failure in it: one line: $(cat err)" test "$(grep -c 'error: .*outputs.py: ended with status 5.*; all results but samples_predictive are in place$' err)" = 1
+check "a failure in it: the results" test -s outputs.csv -a -s failed/samples_corner.png -a ! -e failed/predictive.csv
+rm -rf outputs.csv*
+
 one_error() {  # STATUSES TEXT COMMAND...: one of the statuses
   local status=$1 text=$2; shift 2
   "$@" >one.out 2>one.err
