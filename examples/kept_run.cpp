@@ -13,9 +13,9 @@ namespace examples {
 
 tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
                        const std::string& checkpoint, const tmcmc::Observer& observer) {
-  const auto log_likelihood = experiments::interruptible(model);
+  const auto problem = experiments::interruptible({model, run.prior});
   if (checkpoint.empty()) {
-    return tmcmc::run({log_likelihood, run.prior}, run.options, run.key, observer);
+    return tmcmc::run(problem, run.options, run.key, observer);
   }
   // A checkpoint that is a device keeps nothing.
   const auto is_kept = [&] {
@@ -25,12 +25,12 @@ tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikel
   double beta = -1.0;
   std::size_t stages = 0;
   try {
-    return storage::run_with_checkpoint(checkpoint, run, log_likelihood,
-                                        [&](const tmcmc::Progress& progress) {
-                                          beta = progress.state.beta;
-                                          stages = progress.stages.size();
-                                          observer(progress);
-                                        });
+    const auto observe = [&](const tmcmc::Progress& progress) {
+      beta = progress.state.beta;
+      stages = progress.stages.size();
+      observer(progress);
+    };
+    return storage::run_with_checkpoint(checkpoint, run, problem.log_likelihood, observe, problem.look);
   } catch (io::Interrupted& interrupted) {
     if (is_kept()) {
       interrupted.kept =

@@ -32,14 +32,20 @@ namespace {
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// Raises what a signal's handler raises, such as KeyboardInterrupt.
+void look_for_signals() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) {
+    throw py::error_already_set();
+  }
+}
+
 /// A Python function of an (n, d) array as a batch log-likelihood. It is called with the interpreter's lock, between calls signals
 /// are looked for, and what it raises passes through the sampler.
 tmcmc::LogLikelihood batch_of(const py::function& function) {
   return [&function](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
     const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) {
-      throw py::error_already_set();
-    }
+    look_for_signals();
     const auto result = function(Eigen::MatrixXd(points)).cast<Doubles>();
     if (result.ndim() != 1 || result.shape(0) != points.rows()) {
       throw py::value_error("a log-likelihood for each row");
@@ -108,7 +114,7 @@ py::dict run(const py::function& log_likelihood, const Marginals& marginals, lon
              std::optional<long> chains, std::uint64_t seed, std::uint32_t run_number,
              const GivenOptions& given) {
   const tmcmc::Options options = options_of(evaluations, chains, given);
-  const tmcmc::Problem problem{batch_of(log_likelihood), prior_of(marginals)};
+  const tmcmc::Problem problem{batch_of(log_likelihood), prior_of(marginals), look_for_signals};
   tmcmc::Result result;
   {
     const py::gil_scoped_release unlock;

@@ -207,16 +207,14 @@ OptionalCsv open_csv(const std::string& path, const std::vector<std::string>& co
   return path.empty() ? OptionalCsv() : OptionalCsv(std::in_place, path, columns);
 }
 
-tmcmc::LogLikelihood interruptible(tmcmc::LogLikelihood log_likelihood) {
-  return [log_likelihood = std::move(log_likelihood)](const Eigen::Ref<const Eigen::MatrixXd>& points,
-                                                      Eigen::Ref<Eigen::VectorXd> values) {
+tmcmc::Problem interruptible(tmcmc::Problem problem) {
+  problem.log_likelihood = [log_likelihood = std::move(problem.log_likelihood)](
+                               const Eigen::Ref<const Eigen::MatrixXd>& points,
+                               Eigen::Ref<Eigen::VectorXd> values) {
     io::stop_if_interrupted();
     log_likelihood(points, values);
   };
-}
-
-tmcmc::Problem interruptible(tmcmc::Problem problem) {
-  problem.log_likelihood = interruptible(std::move(problem.log_likelihood));
+  problem.look = io::stop_if_interrupted;
   return problem;
 }
 

@@ -216,9 +216,9 @@ void remove_checkpoint(const std::filesystem::path& path) {
 }
 
 tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDescription& run,
-                                  const tmcmc::LogLikelihood& log_likelihood,
-                                  const tmcmc::Observer& observer) {
-  const tmcmc::Problem problem{log_likelihood, run.prior};
+                                  const tmcmc::LogLikelihood& log_likelihood, const tmcmc::Observer& observer,
+                                  const std::function<void()>& look) {
+  const tmcmc::Problem problem{log_likelihood, run.prior, look};
   {  // a path that cannot be written is better known now than after the first stage
     const io::OutputFile writable(path);
   }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -46,11 +47,13 @@ void remove_checkpoint(const std::filesystem::path& path);
 /// place. Before a run goes on, three samples of the file are evaluated again and must have the
 /// same log-likelihoods, so that no result mixes two models.
 /// \param observer  is called after the file was written
+/// \param look  tmcmc::Problem::look
 /// \throws io::InputError for a model that gives other log-likelihoods, the file untouched; as
 ///         tmcmc::run, read_checkpoint and write_checkpoint; a path that cannot be written is found
 ///         out at the start.
 [[nodiscard]] tmcmc::Result run_with_checkpoint(const std::filesystem::path& path, const RunDescription& run,
                                                 const tmcmc::LogLikelihood& log_likelihood,
-                                                const tmcmc::Observer& observer = {});
+                                                const tmcmc::Observer& observer = {},
+                                                const std::function<void()>& look = {});
 
 }  // namespace storage

@@ -44,7 +44,7 @@ double total_log_density(const StudentMixture& mixture, const WeightedPoints& da
 }
 
 Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
-                 std::uint32_t stage) {
+                 std::uint32_t stage, const std::function<void()>& look) {
   constexpr double clear_loss = 0.02;
   const WeightedPoints even = half(data, 0);
   const WeightedPoints odd = half(data, 1);
@@ -64,8 +64,8 @@ Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, c
     if (k > 1 && std::min(weight_even, weight_odd) < static_cast<double>(k) * (2.0 + 0.5 * d)) {
       break;
     }
-    const double score = (total_log_density(fit_mixture(even, k, few, key, stage), odd) +
-                          total_log_density(fit_mixture(odd, k, few, key, stage), even)) /
+    const double score = (total_log_density(fit_mixture(even, k, few, key, stage, look), odd) +
+                          total_log_density(fit_mixture(odd, k, few, key, stage, look), even)) /
                          (weight_even + weight_odd);
     if (score > best_score + least_gain) {
       best_score = score;
@@ -80,8 +80,8 @@ Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, c
 }  // namespace
 
 StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
-                           std::uint32_t stage) {
-  return fit_mixture(data, best_count(data, options, key, stage), options, key, stage);
+                           std::uint32_t stage, const std::function<void()>& look) {
+  return fit_mixture(data, best_count(data, options, key, stage, look), options, key, stage, look);
 }
 
 }  // namespace tmcmc

@@ -43,8 +43,8 @@ void shared_weights(Index rows, const double* weights, const double* sum, const 
 /// Work space and data of one fit.
 class Fit {
  public:
-  Fit(const WeightedPoints& data, const MixtureFitOptions& options)
-      : data_(data), options_(options), d_(data.points.cols()), n_(data.points.rows()) {
+  Fit(const WeightedPoints& data, const MixtureFitOptions& options, const std::function<void()>& look)
+      : data_(data), options_(options), look_(look), d_(data.points.cols()), n_(data.points.rows()) {
     total_ = sum(data.weights.data(), n_);
     if (!(total_ > 0.0) || !std::isfinite(total_)) {
       throw SamplingError("no point has a positive weight to fit a reference density to");
@@ -64,6 +64,9 @@ class Fit {
   [[nodiscard]] StudentMixture improve(StudentMixture mixture) {
     double before = -std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+      if (look_) {
+        look_();
+      }
       const double mean_log_density = expect(mixture);
       maximise(mixture);
       if (iteration > 2 && mean_log_density - before < options_.tolerance) {
@@ -223,6 +226,7 @@ class Fit {
 
   const WeightedPoints& data_;
   const MixtureFitOptions& options_;
+  const std::function<void()>& look_;
   Index d_;
   Index n_;
   double total_ = 0.0;
@@ -234,13 +238,13 @@ class Fit {
 }  // namespace
 
 StudentMixture fit_mixture(const WeightedPoints& data, Index components, const MixtureFitOptions& options,
-                           const StreamKey& key, std::uint32_t stage) {
-  return Fit(data, options).run(components, key, stage);
+                           const StreamKey& key, std::uint32_t stage, const std::function<void()>& look) {
+  return Fit(data, options, look).run(components, key, stage);
 }
 
 StudentMixture improve_mixture(const WeightedPoints& data, StudentMixture start,
-                               const MixtureFitOptions& options) {
-  return Fit(data, options).improve(std::move(start));
+                               const MixtureFitOptions& options, const std::function<void()>& look) {
+  return Fit(data, options, look).improve(std::move(start));
 }
 
 }  // namespace tmcmc

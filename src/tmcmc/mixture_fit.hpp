@@ -2,6 +2,8 @@
 /// Fit of a mixture of Student t distributions to weighted points.
 #pragma once
 
+#include <functional>
+
 #include "tmcmc/student_mixture.hpp"
 
 namespace tmcmc {
@@ -32,19 +34,22 @@ struct MixtureFitOptions {
 ///
 /// keeps components of few points from collapsing; one that takes less than 2 + d/4 points goes. Components can so become fewer.
 /// \param stage  of Purpose::reference
-/// \throws SamplingError if no weight is positive
+/// \param look   called before each iteration, if not empty; see Problem::look
+/// \throws SamplingError if no weight is positive; what look throws
 [[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, Index components,
                                          const MixtureFitOptions& options, const StreamKey& key,
-                                         std::uint32_t stage);
+                                         std::uint32_t stage, const std::function<void()>& look = {});
 
 /// The same from components that are known about, such as those of a fit to some of the points. Their number does not grow.
 [[nodiscard]] StudentMixture improve_mixture(const WeightedPoints& data, StudentMixture start,
-                                             const MixtureFitOptions& options);
+                                             const MixtureFitOptions& options,
+                                             const std::function<void()>& look = {});
 
 /// The same with the number of components that has the largest mean log-density on points that it was not fitted to:
 /// the groups of even number are fitted and the odd ones scored, and the other way round. More components have to gain d over the
 /// sum of the weights at least, since the score of few points is noisy, and each half needs 2 + d/2 points for each of them.
 [[nodiscard]] StudentMixture fit_mixture(const WeightedPoints& data, const MixtureFitOptions& options,
-                                         const StreamKey& key, std::uint32_t stage);
+                                         const StreamKey& key, std::uint32_t stage,
+                                         const std::function<void()>& look = {});
 
 }  // namespace tmcmc

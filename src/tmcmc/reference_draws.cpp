@@ -48,11 +48,14 @@ double prior_draws(const ReferenceDraws& draws) {
 
 /// Adds n_r (1 - s_r) f_r over the density of the points' own, of each of the references.
 void add_references(const std::vector<ReferenceDensity>& references, const std::vector<Index>& counts,
-                    const Population& z, const Eigen::VectorXd& log_own, Eigen::VectorXd& fitted,
-                    int threads) {
+                    const Population& z, const Eigen::VectorXd& log_own, Eigen::VectorXd& fitted, int threads,
+                    const std::function<void()>& look) {
   for (std::size_t r = 0; r < references.size(); ++r) {
     const double draws = static_cast<double>(counts[r]) * (1.0 - references[r].prior_share);
     if (draws > 0.0) {
+      if (look) {
+        look();
+      }
       add_relative_density(references[r].fitted, portable_math::log(draws), z, log_own, fitted, threads);
     }
   }
@@ -81,10 +84,10 @@ Index ReferenceDraws::evaluations() const {
   return std::accumulate(counts.begin(), counts.end(), Index{0});
 }
 
-void ReferenceDraws::append(const ReferenceDraws& other, int threads) {
+void ReferenceDraws::append(const ReferenceDraws& other, int threads, const std::function<void()>& look) {
   ReferenceDraws added = without_excluded(other);
-  add_references(references, counts, added.z, added.log_own, added.fitted, threads);
-  add_references(other.references, other.counts, z, log_own, fitted, threads);
+  add_references(references, counts, added.z, added.log_own, added.fitted, threads, look);
+  add_references(other.references, other.counts, z, log_own, fitted, threads, look);
   z = stacked(z, added.z);
   log_prior = stacked(log_prior, added.log_prior);
   log_likelihood = stacked(log_likelihood, added.log_likelihood);
@@ -119,7 +122,7 @@ ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity&
       .counts = {n}};
   draws.log_prior = log_prior_density(draws.z, problem.prior, threads);
   draws.log_own = log_density(reference, draws.z, draws.log_prior, threads);
-  add_references(draws.references, draws.counts, draws.z, draws.log_own, draws.fitted, threads);
+  add_references(draws.references, draws.counts, draws.z, draws.log_own, draws.fitted, threads, problem.look);
   const Population x = from_unbounded(draws.z, problem.prior);
   for_each_block(n, rows_per_call(n, threads, batch_rows), threads, [&](Index, Index begin, Index end) {
     problem.log_likelihood(x.middleRows(begin, end - begin),
@@ -143,9 +146,9 @@ Eigen::VectorXd log_weights(const ReferenceDraws& draws) {
 
 Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
                                      const Eigen::VectorXd& log_prior, const Eigen::VectorXd& log_own,
-                                     int threads) {
+                                     int threads, const std::function<void()>& look) {
   Eigen::VectorXd fitted = Eigen::VectorXd::Zero(z.rows());
-  add_references(draws.references, draws.counts, z, log_own, fitted, threads);
+  add_references(draws.references, draws.counts, z, log_own, fitted, threads, look);
   Eigen::VectorXd result(z.rows());
   log_mixture(result.size(), prior_draws(draws), fitted.data(), log_prior.data(), log_own.data(),
               result.data());

@@ -127,7 +127,8 @@ namespace {
 
 /// Fits the draws so far: the number of components is chosen where they have grown enough and where beta has come to 1.
 void fit_round(const TemperedPoints& tempered, const SearchOptions& options, const StreamKey& key,
-               std::uint32_t stage, Index& rows_at_choice, Search& search) {
+               std::uint32_t stage, const std::function<void()>& look, Index& rows_at_choice,
+               Search& search) {
   const double growth =
       options.target < 100.0 ? 1.4 : 2.0;  // few draws lose modes to fits of too few components
   constexpr int iterations_from_last_fit = 3;
@@ -135,12 +136,12 @@ void fit_round(const TemperedPoints& tempered, const SearchOptions& options, con
   const Index rows = search.draws.evaluations();
   if (search.fit.size() == 0 || (tempered.beta == 1.0 && search.beta() < 1.0) ||
       static_cast<double>(rows) >= growth * static_cast<double>(rows_at_choice)) {
-    search.fit = fit_mixture(tempered.points, options.fit, key, stage);
+    search.fit = fit_mixture(tempered.points, options.fit, key, stage, look);
     rows_at_choice = rows;
   } else {
     MixtureFitOptions fit = options.fit;
     fit.most_iterations = iterations_from_last_fit;
-    search.fit = improve_mixture(tempered.points, std::move(search.fit), fit);
+    search.fit = improve_mixture(tempered.points, std::move(search.fit), fit, look);
   }
   search.most_modes = std::max(search.most_modes, detail::separate_modes(search.fit));
   if (tempered.beta < tempered_below) {
@@ -158,7 +159,7 @@ Search search_once(const Problem& problem, const SearchOptions& options, const S
   const auto draw = [&](const ReferenceDensity& reference, Index n) {
     search.draws.append(
         draw_and_evaluate(problem, reference, n, key, stage++, options.threads, options.batch_rows),
-        options.threads);
+        options.threads, problem.look);
   };
   const ReferenceDensity prior{.prior_share = 1.0};
   draw(prior, std::min(std::max(2 * options.round, options.evaluations / 8), options.evaluations));
@@ -168,7 +169,7 @@ Search search_once(const Problem& problem, const SearchOptions& options, const S
         tempered_points(search.draws, options.target, search.beta() > 0.0 ? search.beta() : 1.0);
     const bool is_fitted = tempered.beta > 0.0;
     if (is_fitted) {
-      fit_round(tempered, options, key, stage, rows_at_choice, search);
+      fit_round(tempered, options, key, stage, problem.look, rows_at_choice, search);
     }
     const double effective = tempered.effective_sample_size;
     tempered.points = {};
@@ -215,7 +216,7 @@ Search search_posterior(const Problem& problem, SearchOptions options, const Str
     Search next = search_once(problem, larger, key, pass * stages);
     used = static_cast<double>(next.draws.evaluations());
     next.most_modes = std::max(next.most_modes, search.most_modes);
-    search.draws.append(next.draws, options.threads);
+    search.draws.append(next.draws, options.threads, problem.look);
     next.draws = std::move(search.draws);
     search = std::move(next);
   }

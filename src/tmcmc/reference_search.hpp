@@ -23,7 +23,8 @@ struct ReferenceDraws {
   /// sum_r n_r, the evaluations that the draws have cost.
   [[nodiscard]] Index evaluations() const;
   /// Adds the draws that are not excluded, of weight 0; each density is evaluated at the draws of the other side.
-  void append(const ReferenceDraws& other, int threads = 1);
+  /// \param look  called before each density, if not empty; see Problem::look
+  void append(const ReferenceDraws& other, int threads = 1, const std::function<void()>& look = {});
   /// Adds draws from the same single density as these.
   void append_of_same_density(const ReferenceDraws& other);
 };
@@ -46,9 +47,11 @@ struct ReferenceDraws {
 /// log(sum_r n_r q_r) at other points: the expected number of the draws per volume.
 /// \param log_prior  log_prior_density(z, prior)
 /// \param log_own  log-density that these points are drawn from
+/// \param look  called before each density, if not empty; see Problem::look
 [[nodiscard]] Eigen::VectorXd log_draws_per_volume(const ReferenceDraws& draws, const Population& z,
                                                    const Eigen::VectorXd& log_prior,
-                                                   const Eigen::VectorXd& log_own, int threads = 1);
+                                                   const Eigen::VectorXd& log_own, int threads = 1,
+                                                   const std::function<void()>& look = {});
 
 /// The draws with their weights, for a fit: these sum to the effective size. Where that is below `fewest` or half of the
 /// feasible draws, the weights are raised to the power in (0, 1] at which it is reached.

@@ -1,7 +1,10 @@
 // A posterior measured by independent draws from a fitted density.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "errors/invalid_value.hpp"
 #include "problems.hpp"
@@ -114,6 +117,78 @@ TEST_CASE("The same seed gives the same draws for any number of threads and size
   CHECK(one.evidence.log_evidence == three.evidence.log_evidence);
   const auto other = run(normal(), options, {.seed = 4, .run = 1});
   CHECK(one.evidence.log_evidence != other.evidence.log_evidence);
+}
+
+TEST_CASE("Between the evaluations the run looks at each iteration of a fit and each density of a sum") {
+  Problem problem = normal();
+  const auto plain = run(problem, by_draws(12000), {.seed = 4});
+  std::string order;  // of calls: evaluations and looks
+  problem.log_likelihood = [&, model = problem.log_likelihood](const auto& points, auto values) {
+    order += 'e';
+    model(points, values);
+  };
+  problem.look = [&] { order += 'l'; };
+  const auto looking = run(problem, by_draws(12000), {.seed = 4});
+  CHECK(plain.final.points == looking.final.points);
+  CHECK(plain.weights == looking.weights);
+  CHECK(plain.evidence.log_evidence == looking.evidence.log_evidence);
+  // Each round of a search but the first is drawn from a fit, of three iterations at least.
+  const auto rounds = looking.stages.size();
+  CHECK(rounds > 5);
+  CHECK(std::count(order.begin(), order.end(), 'l') > static_cast<std::ptrdiff_t>(3 * rounds));
+  CHECK(order.back() == 'l');  // the densities of the searches at the final draws
+  CHECK(order.substr(order.find('l')).find("ee") != std::string::npos);
+  const std::size_t joint = order.rfind("le");
+  CHECK(order.find("lll") < joint);
+
+  for (const int calls : {1, 50, 400}) {
+    int left = calls;
+    problem.look = [&] {
+      if (--left == 0) {
+        throw std::domain_error("an interrupt");
+      }
+    };
+    CHECK_THROWS_AS(run(problem, by_draws(12000), {.seed = 4}), std::domain_error);
+    CHECK(left == 0);
+  }
+  problem.look = [] { throw std::domain_error("an interrupt"); };
+  const Observer observer = [](const Progress&) {};
+  CHECK_THROWS_AS(run(problem, by_draws(12000), {.seed = 4}, observer), std::domain_error);
+}
+
+TEST_CASE("Each iteration of a fit and each density that is added looks once") {
+  StudentMixture mixture;
+  mixture.degrees_of_freedom = 8;
+  mixture.weights = Eigen::VectorXd::Ones(1);
+  mixture.means = Eigen::MatrixXd::Zero(2, 1);
+  mixture.factors = {Eigen::MatrixXd::Identity(2, 2)};
+  int looks = 0;
+  const auto look = [&] { ++looks; };
+  WeightedPoints data{sample(mixture, 400, {.seed = 7}, 0), Eigen::VectorXd::Ones(400), {}};
+  for (Index i = 0; i < 400; ++i) {
+    data.groups.push_back(i);
+  }
+  MixtureFitOptions options;
+  options.tolerance = -1.0;  // never ends early
+  static_cast<void>(fit_mixture(data, 1, options, {.seed = 7}, 0, look));
+  CHECK(looks == options.most_iterations);
+  looks = 0;
+  static_cast<void>(improve_mixture(data, mixture, options, look));
+  CHECK(looks == options.most_iterations);
+  looks = 0;  // each number of components is fitted to both halves with half of the iterations
+  options.most_components = 1;
+  static_cast<void>(fit_mixture(data, options, {.seed = 7}, 0, look));
+  CHECK(looks == 2 * ((options.most_iterations + 1) / 2) + options.most_iterations);
+
+  const Problem problem = normal();
+  const ReferenceDensity reference{.fitted = mixture, .prior_share = 0.1};
+  ReferenceDraws draws;
+  for (std::uint32_t stage = 0; stage < 3; ++stage) {
+    looks = 0;
+    draws.append(draw_and_evaluate(problem, reference, 100, {.seed = 7}, stage), 1, look);
+    // The new density at the draws so far, and those so far at the new draws.
+    CHECK(looks == static_cast<int>(stage) + 1);
+  }
 }
 
 TEST_CASE("Two modes of different mass are both measured") {

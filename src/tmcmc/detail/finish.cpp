@@ -89,8 +89,8 @@ Result run_independent_draws(const Problem& problem, const Options& options, con
   }
   const Index rows = std::max<Index>(options.evaluation_budget / observations, 1);
   RecordedLikelihood recorded(problem.log_likelihood, from.state, rows, keep);
-  return result_of(measure_posterior({std::ref(recorded), problem.prior}, options, key), options,
-                   problem.prior);
+  return result_of(measure_posterior({std::ref(recorded), problem.prior, problem.look}, options, key),
+                   options, problem.prior);
 }
 
 }  // namespace tmcmc::detail

@@ -92,7 +92,7 @@ WeightedPoints united(const WeightedPoints& a, const WeightedPoints& b) {
 
 /// Share of the posterior mass, at up to 1000 of the draws, where a search has made fewer than 8 draws per unit of mass.
 double missed_mass(const Search& search, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
-                   double log_evidence, int threads) {
+                   double log_evidence, int threads, const std::function<void()>& look) {
   constexpr Index most_points = 1000;
   const double log_fewest = portable_math::log(8.0);
   const Index n = draws.z.rows();
@@ -105,7 +105,7 @@ double missed_mass(const Search& search, const ReferenceDraws& draws, const Eige
     log_prior[i] = draws.log_prior[i * stride];
     log_own[i] = draws.log_own[i * stride];
   }
-  const Eigen::VectorXd log_draws = log_draws_per_volume(search.draws, z, log_prior, log_own, threads);
+  const Eigen::VectorXd log_draws = log_draws_per_volume(search.draws, z, log_prior, log_own, threads, look);
   double missed = 0.0;
   double all = 0.0;
   for (Index i = 0; i < z.rows(); ++i) {
@@ -246,17 +246,18 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
   ReferenceDraws seen;  // by a fit, from the second attempt on
   ReferenceDraws draws;
   for (std::uint32_t attempt = 0;; ++attempt) {
-    measured.reference = reference_of(settings, fit_mixture(points, settings.fit, key, attempt), searches);
+    measured.reference =
+        reference_of(settings, fit_mixture(points, settings.fit, key, attempt, problem.look), searches);
     draws = draw((options.evaluation_budget - measured.evaluations) / 6, attempt);
     const double effective = effective_sample_size(as_span(log_weights(draws)), 1.0);
     if (is_frozen(settings, effective / static_cast<double>(draws.z.rows()), attempt)) {
       break;
     }
     if (attempt == 0) {
-      seen.append(searches[0].draws, threads);
-      seen.append(searches[1].draws, threads);
+      seen.append(searches[0].draws, threads, problem.look);
+      seen.append(searches[1].draws, threads, problem.look);
     }
-    seen.append(draws, threads);
+    seen.append(draws, threads, problem.look);
     points = fit_points(seen, target);
   }
   draws.append_of_same_density(draw(options.evaluation_budget - measured.evaluations, final_draws_stage));
@@ -270,7 +271,8 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
   measured.effective_sample_size = estimate.effective_sample_size;
   measured.pareto_shape = estimate.pareto_shape;
   for (std::size_t k = 0; k < 2; ++k) {
-    measured.missed_mass[k] = missed_mass(searches[k], draws, measured.weights, estimate.log_mean, threads);
+    measured.missed_mass[k] =
+        missed_mass(searches[k], draws, measured.weights, estimate.log_mean, threads, problem.look);
   }
   measured.modes = std::max(measured.modes, detail::separate_modes(measured.reference.fitted));
   measured.draws_a_mode = target / static_cast<double>(measured.modes > 1 ? measured.modes + 1 : 1);
