@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   std::string only_sampler;
   long rigs = 20;
   long evaluations = 0;
-  long most_evaluations = 31000;
+  long most_evaluations = 100000;
   add_output(app, output, "CSV with one row a problem, sampler and number of evaluations");
   app.add_option("--problem", only, "Only problems whose name begins so, for example 'banana'")
       ->type_name("TEXT");

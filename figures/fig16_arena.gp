@@ -16,8 +16,8 @@ place(name) = sum [i = 1:words(problems)] (word(problems, i) eq name ? i : 0)
 
 samplers = '"published" "better moves" "recommended"'
 titles = '"Published setting" "Better moves" "Recommended: independent draws"'
-budgets = '3000 10000 31000'
-budget_titles = '"3 000 evaluations" "10 000" "31 000"'
+budgets = '3000 10000 31000 100000'
+budget_titles = '"3 000 evaluations" "10 000" "31 000" "100 000"'
 colours = vermillion.' '.green.' #0072B2'
 shapes = '8 6 4'
 is(k, e) = strcol('sampler') eq word(samplers, k) && strcol('evaluations') eq word(budgets, e)
@@ -28,9 +28,9 @@ set grid ytics lc rgb '#EEEEEE' lt 1 lw 0.5
 set logscale x
 set multiplot
 do for [row = 1:2] {
-  do for [e = 1:3] {
-    set lmargin at screen 0.215 + (e - 1) * 0.262
-    set rmargin at screen 0.215 + (e - 1) * 0.262 + 0.25
+  do for [e = 1:4] {
+    set lmargin at screen 0.205 + (e - 1) * 0.2
+    set rmargin at screen 0.205 + (e - 1) * 0.2 + 0.187
     set tmargin at screen (row == 1 ? 0.955 : 0.475)
     set bmargin at screen (row == 1 ? 0.545 : 0.055)
     unset ytics
@@ -39,11 +39,11 @@ do for [row = 1:2] {
     } else {
       set ytics 1, 1, n format '' scale 0
     }
-    if (row == 1) { set xrange [0.0008:300]; set xtics ('10^{−3}' 0.001, '0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100) font ',7'; set xlabel (e == 2 ? 'RMS error of the log-evidence' : ' ') offset 0, 0.7; quantity = 'rms_error'; edge = 230 } \
-    else { set xrange [0.3:300]; set xtics ('1' 1, '10' 10, '100' 100) font ',7'; set xlabel (e == 2 ? 'RMS of error over stated standard error' : ' ') offset 0, 0.7; quantity = 'rms_z'; edge = 250 }
+    if (row == 1) { set xrange [0.0004:300]; set xtics ('0.001' 0.001, '' 0.01, '0.1' 0.1, '' 1, '10' 10, '' 100) font ',7'; set xlabel (e == 2 ? 'RMS error of the log-evidence' : ' ') offset 13, 0.7; quantity = 'rms_error'; edge = 230 } \
+    else { set xrange [0.3:300]; set xtics ('1' 1, '10' 10, '100' 100) font ',7'; set xlabel (e == 2 ? 'RMS of error over stated standard error' : ' ') offset 13, 0.7; quantity = 'rms_z'; edge = 250 }
     unset arrow 1
     if (row == 2) { set arrow 1 from 1, graph 0 to 1, graph 1 nohead back lc rgb grey dt (4, 4) lw 0.9 }
-    set label 1 sprintf('(%s) %s', 'abcdef'[(row - 1) * 3 + e:(row - 1) * 3 + e], word(budget_titles, e)) at graph 0, 1.022 left font 'Nimbus Sans:Bold,8.5' front
+    set label 1 sprintf('(%s) %s', 'abcdefgh'[(row - 1) * 4 + e:(row - 1) * 4 + e], word(budget_titles, e)) at graph 0, 1.022 left font 'Nimbus Sans:Bold,8.5' front
     if (row == 1 && e == 1) { set key at screen 0.55, 0.998 center top maxrows 1 Left reverse samplen 1 width -4 font ',7.5' } else { unset key }
     plot for [k = 1:3] arena using (is(k, e) && column('warned') <= 0.5 && column('unfinished') < 0.99 ? column(quantity) : NaN):(place(strcol('problem'))) \
            with points pt (word(shapes, k) + 1) ps 0.42 lc rgb word(colours, k), \

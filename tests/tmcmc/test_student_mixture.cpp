@@ -1,6 +1,7 @@
 // Density, draws and fit of mixtures of Student t distributions.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "tmcmc/detail/separate_modes.hpp"
 #include "tmcmc/mixture_fit.hpp"
@@ -69,10 +70,26 @@ TEST_CASE("The density of a mixture integrates to one, in an even and an odd num
   CHECK(log_density(line, points).array().exp().sum() * 0.02 == Approx(1.0).margin(1e-6));
 }
 
-TEST_CASE("Far from all components the log-density is finite") {
-  Population far(1, 2);
-  far << 1e150, -1e150;
-  CHECK(std::isfinite(log_density(two_components(), far)[0]));
+TEST_CASE(
+    "Far from all components, where their densities underflow, the log-density is that of the formula") {
+  const StudentMixture mixture = two_components();
+  Population far(2, 2);
+  far << 1e150, -1e150, -2e60, 1e60;
+  const Eigen::VectorXd found = log_density(mixture, far);
+  for (Index i = 0; i < 2; ++i) {
+    double expected = -std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < 2; ++k) {
+      const auto& factor = mixture.factors[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd deviation = far.row(i).transpose() - mixture.means.col(k);
+      const double distance = factor.triangularView<Eigen::Lower>().solve(deviation).squaredNorm();
+      // Gamma(5) / (Gamma(4) 8 pi) = 1 / (2 pi).
+      const double term = std::log(mixture.weights[k]) - std::log(2.0 * std::acos(-1.0)) -
+                          std::log(factor(0, 0) * factor(1, 1)) - 5.0 * std::log1p(distance / 8.0);
+      const double larger = std::max(term, expected);
+      expected = larger + std::log(std::exp(term - larger) + std::exp(expected - larger));
+    }
+    CHECK(found[i] == Approx(expected).epsilon(rounding));
+  }
 }
 
 TEST_CASE("Draws have the means and the covariances of their components") {
