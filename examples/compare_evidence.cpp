@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   app.add_flag(
       "--same-data", is_same_data,
       "The data are the same, although the files do not say so (models that keep their data to themselves)");
-  add_output(app, output, "CSV: a row a model");
+  add_output(app, output, "CSV: a row per model");
 
   return report.run(argc, argv, [&] {
     if (!priors.empty() && priors.size() != files.size()) {

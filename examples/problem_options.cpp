@@ -122,11 +122,12 @@ void ProblemOptions::add_run_and_outputs(CLI::App& app) {
   add(app, "run", "threads", "--threads", threads, "", count(0, 4096),
       "Threads; 0: as many as the machine has. Results do not depend on it");
   add(app, "output", "samples", "--output", output, "FILE", text,
-      "CSV: a row a sample, with its log-likelihood; '-' is standard output. Without it no file is written");
+      "CSV: a row per sample, with its log-likelihood; '-' is standard output. Without it no file is "
+      "written");
   add(app, "output", "netcdf", "--netcdf", netcdf, "FILE", text,
       "Samples, stages and observations in the layout of ArviZ");
   add(app, "output", "summary", "--summary", summary, "FILE", text,
-      "CSV: a row a parameter with mean, sd, quantiles, effective sample size and R-hat");
+      "CSV: a row per parameter with mean, sd, quantiles, effective sample size and R-hat");
   add(app, "output", "figures", "--figures", figures, "DIRECTORY", text,
       "Directory for a corner plot, marginals, the stages, and of a model with outputs the measurements in "
       "their "

@@ -11,7 +11,7 @@
 
 namespace examples {
 
-/// Measured natural frequencies, one entry a measurement.
+/// Measured natural frequencies, one entry per measurement.
 struct FrameObservations {
   /// 1 or 2.
   std::vector<long> mode;

@@ -157,7 +157,7 @@ class Study {
     return summary;
   }
 
-  /// Areas of the p-boxes of the runs so far, one entry a parameter.
+  /// Areas of the p-boxes of the runs so far, one entry per parameter.
   [[nodiscard]] val areas(std::size_t arm) const {
     std::vector<double> areas;
     for (const auto& ecdfs : ecdfs_.at(arm)) {

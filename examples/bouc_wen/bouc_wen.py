@@ -63,7 +63,7 @@ MEASURED = measured()
 
 
 def log_likelihood(points):
-    """Of an (n, 4) array of points, a row a point, in the order of PARAMETERS: n values."""
+    """Of an (n, 4) array of points, a row per point, in the order of PARAMETERS: n values."""
     points = np.asarray(points, dtype=float)
     # one point as plain numbers, which are several times faster than arrays of one element
     frequency, beta, gamma, noise = points[0].tolist() if len(points) == 1 else np.ascontiguousarray(points.T)

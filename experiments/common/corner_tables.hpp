@@ -21,7 +21,7 @@ struct CornerTables {
   OptionalCsv
       joint;  ///< of each pair: the middle of a cell, its density, and the probability of the cells at least as dense
   OptionalCsv marginals;  ///< of each parameter: bins with their density
-  OptionalCsv summary;    ///< a row a parameter: moments, quantiles, the range that is drawn and its tics
+  OptionalCsv summary;    ///< a row per parameter: moments, quantiles, the range that is drawn and its tics
 
   /// \throws io::OutputError for a path that cannot be written; an empty one is no file.
   CornerTables(const std::string& joint_path, const std::string& marginals_path,

@@ -1,5 +1,5 @@
 /// \file
-/// Priors from files: one row a parameter, and a matrix of correlations beside it.
+/// Priors from files: one row per parameter, and a matrix of correlations beside it.
 #pragma once
 
 #include <functional>

@@ -36,7 +36,7 @@ class Mode:
 class Run:
     """One run of the sampler."""
 
-    samples: Array  #: (n, d), a row a sample
+    samples: Array  #: (n, d), a row per sample
     log_likelihood: Array  #: n
     weights: Array  #: of the samples, n, which sum to 1; equal but with finish="independent"
     log_evidence: float  #: with the prior normalised

@@ -40,7 +40,7 @@ def sample(
     """Samples the posterior by waste-free TMCMC and estimates the evidence.
 
     Args:
-        log_likelihood: called with an (n, d) array of points, a row a point and the parameters in the order of the prior;
+        log_likelihood: called with an (n, d) array of points, a row per point and the parameters in the order of the prior;
             returns n log-likelihoods. Minus infinity excludes a point. A row's value must not depend on the other rows.
         prior: the parameters by name, each as ``(lower, upper)`` for a uniform distribution; as ``("normal", 0.0, 2.0)``, the
             name of a distribution with its arguments; as ``("log_normal", {"mean": 1.0, "sd": 0.2})``, with their names;

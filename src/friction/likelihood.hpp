@@ -34,7 +34,7 @@ class Likelihood {
              double infeasible_log_likelihood = -std::numeric_limits<double>::infinity());
 
   /// Log-likelihood of each point, in natural units (normalised densities).
-  /// \param points  n x 4, one column a parameter in the order of Parameter, noise levels and frequency positive
+  /// \param points  n x 4, one column per parameter in the order of Parameter, noise levels and frequency positive
   /// \param log_likelihood  n values, overwritten
   /// \throws errors::InvalidValue if the shapes do not fit.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,

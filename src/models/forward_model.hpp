@@ -11,7 +11,7 @@
 
 namespace models {
 
-/// A batch of points (n x d, a row a point) and the model's outputs (n x m, overwritten). No output is NaN; an infinite one excludes
+/// A batch of points (n x d, a row per point) and the model's outputs (n x m, overwritten). No output is NaN; an infinite one excludes
 /// its point.
 using ForwardModel =
     std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::MatrixXd> outputs)>;

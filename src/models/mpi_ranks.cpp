@@ -61,7 +61,7 @@ struct Parts {
   std::vector<int> counts, begins;
 };
 
-/// Fills the values of this rank's points, a row a point.
+/// Fills the values of this rank's points, a row per point.
 void fill(Eigen::MatrixXd& values, const SharedModel& model, const Eigen::MatrixXd& points, long outputs) {
   if (outputs == 0) {
     model.log_likelihood(points, values.col(0));

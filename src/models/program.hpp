@@ -6,8 +6,8 @@
 ///     PROGRAM points.csv log_likelihoods.csv
 ///
 /// without a shell, in a directory of its own that is removed afterwards (io::ScratchDirectory); its standard output goes to standard error. It reads
-/// the first file, a header with the names of the parameters and a row a point, and writes the second, a column
-/// `log_likelihood` with a row a point in the same order: decimal numbers, or -inf where the model excludes the point. If it
+/// the first file, a header with the names of the parameters and a row per point, and writes the second, a column
+/// `log_likelihood` with a row per point in the same order: decimal numbers, or -inf where the model excludes the point. If it
 /// writes columns with names of parameters too, these have to repeat the points, so that rows in another order are seen. A model
 /// with outputs writes a column for each of them, of any name, in the order of the observations.
 #pragma once

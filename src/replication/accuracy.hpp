@@ -10,8 +10,8 @@ namespace replication {
 
 /// What is known of a posterior.
 struct KnownPosterior {
-  Eigen::VectorXd mean;                ///< one entry a parameter
-  Eigen::VectorXd standard_deviation;  ///< one entry a parameter, positive
+  Eigen::VectorXd mean;                ///< one entry per parameter
+  Eigen::VectorXd standard_deviation;  ///< one entry per parameter, positive
   double log_evidence = 0.0;           ///< log P(D)
 };
 
@@ -42,7 +42,7 @@ struct Configuration {
   tmcmc::Options options;  ///< complete options of the sampler
 };
 
-/// P-box areas of a study, one entry a parameter. Of weighted samples 1000 are drawn for each run, as many as the paper's runs have:
+/// P-box areas of a study, one entry per parameter. Of weighted samples 1000 are drawn for each run, as many as the paper's runs have:
 /// by multinomial resampling, so that their p-box has the area of independent draws and no less. That is done ten times over,
 /// each with an area of its own, since the area of 1000 draws scatters more than what it is to show.
 /// \param runs  of the study options.study and of the arm

@@ -48,7 +48,7 @@ struct ParameterAudit {
   std::vector<PointTest> tests;            ///< in the order in which Audit states them
 };
 
-/// What the table says of its own statement; vectors have one entry an observation.
+/// What the table says of its own statement; vectors have one entry per observation.
 struct Audit {
   std::vector<double> frequency_difference_hz;  ///< omega_b - r omega_n
   std::vector<double> ratio_residual;           ///< (r - r_nom) / sigma_r

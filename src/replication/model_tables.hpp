@@ -10,7 +10,7 @@
 namespace replication {
 
 /// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion
-/// (Eq. 18), a row a point.
+/// (Eq. 18), a row per point.
 struct Phases {
   std::vector<double> phase_deg,  ///< in degrees
       limit_force_ratio;          ///< as a multiple of the driving force

@@ -8,7 +8,7 @@
 
 namespace replication {
 
-/// What one study reports of one sampler; vectors have one entry a parameter.
+/// What one study reports of one sampler; vectors have one entry per parameter.
 struct StudySummary {
   std::uint32_t study = 0;              ///< number of the study in its random streams
   std::string sampler;                  ///< name of the arm

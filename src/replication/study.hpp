@@ -27,7 +27,7 @@ struct StudyOptions {
 /// One run: final samples, records of the stages, and moments.
 struct Run {
   tmcmc::Result result;                ///< as the sampler returned it; samples can be weighted
-  Eigen::VectorXd mean;                ///< of the final samples, one entry a parameter
+  Eigen::VectorXd mean;                ///< of the final samples, one entry per parameter
   Eigen::VectorXd standard_deviation;  ///< of the final samples (N - 1)
 
   /// Number of stages: what Table 4 counts.
@@ -49,7 +49,7 @@ using RunObserver = std::function<void()>;
 [[nodiscard]] std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
                                        const StudyOptions& options, const RunObserver& observer = {});
 
-/// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry a parameter.
+/// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry per parameter.
 /// \param threads  over the parameters; the areas do not depend on it
 /// \throws errors::InvalidValue if there is no run.
 [[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads = 1);

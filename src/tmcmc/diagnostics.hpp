@@ -15,7 +15,7 @@ namespace tmcmc {
 /// (Chan and Lai 2013; Lee and Whiteley 2018). The groups are the descendants of one chain of an
 /// earlier stage, of the earliest from which fewest_groups are left in effect; where there is none,
 /// the chains themselves.
-/// \return  one entry a parameter; 0 for a constant parameter or a single chain
+/// \return  one entry per parameter; 0 for a constant parameter or a single chain
 [[nodiscard]] Eigen::VectorXd effective_sample_sizes(const Population& points, const Genealogy& genealogy);
 
 /// What a kind of warning is about, in a few words.

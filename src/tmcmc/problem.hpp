@@ -11,7 +11,7 @@ namespace tmcmc {
 
 /// What is sampled: the posterior proportional to likelihood times prior.
 struct Problem {
-  /// Of the whole population, a row a point.
+  /// Of the whole population, a row per point.
   LogLikelihood log_likelihood;
   /// Normalised.
   Prior prior;

@@ -17,7 +17,7 @@ namespace tmcmc {
 /// Its tails fall off like a power of the distance, so that importance weights of a target with lighter tails are bounded.
 struct StudentMixture {
   Eigen::VectorXd weights;               ///< w_k, K of them; their sum need not be 1
-  Eigen::MatrixXd means;                 ///< m_k, d x K, one column a component
+  Eigen::MatrixXd means;                 ///< m_k, d x K, one column per component
   std::vector<Eigen::MatrixXd> factors;  ///< L_k, lower triangular with a positive diagonal, d x d each
   int degrees_of_freedom = 8;            ///< nu, even and positive
 
@@ -52,7 +52,7 @@ struct StudentMixture {
 /// systematic resampling. They sum to n, and their means over `uniform` in (0, 1) are exact.
 [[nodiscard]] std::vector<Index> systematic_counts(ConstDoubles shares, Index n, double uniform);
 
-/// total += factor q(z) / exp(log_scale), a row a point: sums of densities relative to one of which the points are draws.
+/// total += factor q(z) / exp(log_scale), a row per point: sums of densities relative to one of which the points are draws.
 /// \param log_factor  log of the factor
 /// \param log_scale  one a row
 void add_relative_density(const StudentMixture& mixture, double log_factor, const Population& points,

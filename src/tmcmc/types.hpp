@@ -18,7 +18,7 @@ namespace tmcmc {
 /// Signed size of Eigen: rows, columns and counts.
 using Index = Eigen::Index;
 
-/// One row a sample, one column a parameter.
+/// One row per sample, one column per parameter.
 using Population = Eigen::MatrixXd;
 
 /// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point

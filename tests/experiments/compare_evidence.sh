@@ -8,7 +8,7 @@ own="$bin/own_model --quiet --evaluations 4000"
 $own --output two.csv --netcdf two.nc
 $own --prior-correlation data/examples/frame_common_stiffness.csv --output common.csv --netcdf common.nc
 "$bin/compare_evidence" two.nc common.nc --output table.csv >report.txt
-check "a row a model" test "$(wc -l <table.csv)" = 3
+check "a row per model" test "$(wc -l <table.csv)" = 3
 check "two stiffnesses explain the frame better by far" awk -v b="$(cell table.csv common.nc log_bayes_factor)" 'BEGIN {exit !(b < -8 && b > -20)}'
 check "probabilities add up to 1" awk -v a="$(cell table.csv two.nc probability)" -v b="$(cell table.csv common.nc probability)" \
   'BEGIN {exit !((a+b-1)^2 < 1e-16)}'

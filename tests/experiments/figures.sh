@@ -8,7 +8,7 @@ check "ends with 0: $(cat err)" test $? = 0
 for figure in samples_corner samples_marginals samples_stages samples_predictive; do
   for format in pdf png; do check "$figure.$format" test -s drawn/here/$figure.$format; done
 done
-check "a row a parameter" test "$(wc -l <drawn/here/corner_summary.csv)" = 4
+check "a row per parameter" test "$(wc -l <drawn/here/corner_summary.csv)" = 4
 check "three pairs of parameters" test "$(wc -l <drawn/here/corner.csv)" = $((3 * 30 * 30 + 1))
 check "the mean of the report" awk -F, -v x="$(awk '$1 == "stiffness_1" {print $2}' report.txt)" \
   '$1 == "stiffness_1" {exit !(($2 - x)^2 < 1e-8)}' drawn/here/corner_summary.csv
@@ -37,7 +37,7 @@ check "a model without outputs has no posterior predictive" test ! -e scales/pre
 
 # ---- The posterior predictive of the frame: 16 frequencies of two modes.
 check "what it costs is reported" grep -qx 'posterior predictive: 1[3-6] of 16 measurements in the central 95 % of a new one; 500 more evaluations' <($own --figures frame)
-check "a row a measurement, with its label" test "$(cut -d, -f1-4 frame/predictive.csv | sed -n '1p;2p;17p' | tr '\n' ' ')" = \
+check "a row per measurement, with its label" test "$(cut -d, -f1-4 frame/predictive.csv | sed -n '1p;2p;17p' | tr '\n' ' ')" = \
   "quantity,number,label,observed frequency_hz,1,mode 1,4.3182 frequency_hz,16,mode 2,11.7533 "
 check "nested bands around the median, and the same in standard deviations" awk -F, '
   NR > 1 { n++; if (!($8 < $6 && $6 < $5 && $5 < $7 && $7 < $9 && $10 > 0 && $10 < 1)) exit 1

@@ -7,7 +7,7 @@ mkdir -p "$TMPDIR"
 own="$bin/own_model --evaluations 2600 --quiet"
 
 $own --output whole.csv --netcdf whole.nc
-check "a row a sample and a header" test "$(wc -l <whole.csv)" -gt 1000
+check "a row per sample and a header" test "$(wc -l <whole.csv)" -gt 1000
 check "the true stiffnesses are within 4 standard deviations" awk -F, '
   NR > 1 { n++; for (j = 1; j <= 2; j++) { s[j] += $j; q[j] += $j * $j } }
   END { for (j = 1; j <= 2; j++) { mean = s[j] / n; sd = sqrt(q[j] / n - mean * mean); z = (mean - (j == 1 ? 0.9 : 1.2)) / sd; if (z * z > 16) exit 1 } }' whole.csv

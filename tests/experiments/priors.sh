@@ -7,7 +7,7 @@ good=data/examples/frame_prior_correlated.csv
 matrix=data/examples/frame_correlations.csv
 
 check "distributions and correlations" $own --prior $good --prior-correlation $matrix --output samples.csv --netcdf samples.nc
-check "a row a sample" test "$(wc -l <samples.csv)" -gt 1000
+check "a row per sample" test "$(wc -l <samples.csv)" -gt 1000
 check "the true stiffnesses are within 4 standard deviations" awk -F, '
   NR > 1 { n++; for (j = 1; j <= 2; j++) { s[j] += $j; q[j] += $j * $j } }
   END { for (j = 1; j <= 2; j++) { mean = s[j] / n; sd = sqrt(q[j] / n - mean * mean); z = (mean - (j == 1 ? 0.9 : 1.2)) / sd; if (z * z > 16) exit 1 } }' samples.csv
