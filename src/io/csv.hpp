@@ -62,7 +62,7 @@ class CsvTable {
   /// Others may exist too. \throws InputError naming the first column that is missing.
   void require_columns(std::initializer_list<std::string_view> columns) const;
 
-  /// A whole column of finite numbers, one a row, as the other columns below. Numbers are decimal,
+  /// A whole column of finite numbers, one per row, as the other columns below. Numbers are decimal,
   /// correctly rounded, and may carry a sign; a magnitude that a double cannot hold (1e400,
   /// 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
   /// \throws InputError if there is no such column or a cell does not fit.

@@ -191,9 +191,9 @@ struct Result {
   /// Samples of the posterior if stop is completed. With independent draws they are weighted,
   /// final.log_evidence is the logarithm of their mean weight, and each is a chain of its own.
   State final;
-  /// One a sample, with a mean of 1. All are 1 unless the finish is IndependentDraws.
+  /// One per sample, with a mean of 1. All are 1 unless the finish is IndependentDraws.
   Eigen::VectorXd weights;
-  /// One a stage, in order. With independent draws: one a round of the first search, which know
+  /// One per stage, in order. With independent draws: one per round of the first search, which know
   /// stage, beta, step, effective_sample_size and evaluations.
   std::vector<StageRecord> stages;
   /// Why the run ended.

@@ -54,7 +54,7 @@ struct StudentMixture {
 
 /// total += factor q(z) / exp(log_scale), a row per point: sums of densities relative to one of which the points are draws.
 /// \param log_factor  log of the factor
-/// \param log_scale  one a row
+/// \param log_scale  one per row
 void add_relative_density(const StudentMixture& mixture, double log_factor, const Population& points,
                           const Eigen::VectorXd& log_scale, Eigen::VectorXd& total, int threads = 1);
 

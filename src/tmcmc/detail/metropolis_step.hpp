@@ -11,7 +11,7 @@ namespace tmcmc::detail {
 
 /// What Metropolis steps did, summed over rows and steps.
 struct MoveCounts {
-  /// Proposals made, one a row and step; redrawn ones count once.
+  /// Proposals made, one per row and step; redrawn ones count once.
   Index proposals = 0;
   /// Proposals accepted.
   Index accepted = 0;
