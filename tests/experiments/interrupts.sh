@@ -8,7 +8,9 @@ mkdir out tmp
 export TMPDIR=$work/tmp
 longest_ms=2500  # a second, on a machine with other work
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
-listens() { grep -qs '^SigCgt:.*[4567cdef]...$' "/proc/$pid/status"; }  # to SIGTERM
+listens() {  # the program, and no longer the shell that becomes it, to SIGTERM
+  [ "$(readlink "/proc/$pid/exe")" = "$(realpath "${command%% *}")" ] && grep -qs '^SigCgt:.*[4567cdef]...$' "/proc/$pid/status"
+}
 
 # ends_by FIRST SECOND DELAY: both signals after the delay; FIRST has to end what was started, and leave nothing.
 ends_by() {

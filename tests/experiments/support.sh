@@ -2,7 +2,8 @@
 set -u
 bin=$1 source=$2
 work=$(mktemp -d)
-trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+# A child of this shell that a signal ends before it has become a program would run the trap too.
+trap 'if [ "$BASHPID" = $$ ]; then chmod -R u+w "$work"; rm -rf "$work"; fi' EXIT
 passed=0 failed=0
 cd "$work" || exit 1
 mkdir -p data && cp -r "$source/data/published" data/published
