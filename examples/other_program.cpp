@@ -166,7 +166,7 @@ Model other_program(const ProblemOptions& options, const Listeners& listeners) {
   }
   set_program(result, options, seen, data, listeners);
   if (data) {
-    result.measurements.observed = {{"observation", data->observations}};
+    result.measurements.observed = {{"measured", data->observations}};
     result.measurements.constant = {{"standard_deviation", data->standard_deviations}};
   }
   if (options.is_given("--observations")) {

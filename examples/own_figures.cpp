@@ -78,8 +78,8 @@ bool OwnFigures::draw(const std::string& figure) const {
       models::run_child({source + "/figures/draw", figure, directory_, directory_}, source, 60.0);
   const bool is_drawn = end.kind == models::ChildEnd::Kind::exited && end.value == 0;
   if (!is_drawn) {
-    experiments::warn(
-        fmt::format("{}: not drawn: expected gnuplot (make deps); the tables are there", path(figure)));
+    experiments::warn(fmt::format(
+        "{}: not drawn within a minute: expected gnuplot (make deps); the tables are there", path(figure)));
   }
   return is_drawn;
 }

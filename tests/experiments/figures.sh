@@ -82,6 +82,7 @@ a = {lower = -5, upper = 5}
 b = {lower = -5, upper = 5}
 [output]
 samples = "linear.csv"
+netcdf = "linear.nc"
 figures = "linear"
 TOML
 linear="$bin/own_model linear.toml --quiet"
@@ -96,6 +97,7 @@ closed_form() {  # NOISE
 }
 COUNTER=$work/counter $linear
 check "the bands of a linear model" closed_form 1 linear/predictive.csv
+check "its NetCDF file, with the measurements" test -s linear.nc
 check "500 evaluations more than the samples, in calls of at most 100" awk '{ n += $1; last[NR] = $1 } END { exit !(n <= 8500 && n > 8400 && last[NR] <= 100) }' counter
 cp linear/predictive.csv whole.csv
 $linear --parallel 3 --batch 7
