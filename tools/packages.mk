@@ -1,7 +1,7 @@
 # Debian packages, a list for each purpose; each target installs what is missing of its list.
 PACKAGES := g++ cmake ninja-build libeigen3-dev libboost-dev libceres-dev librandom123-dev libfmt-dev libcli11-dev \
   catch2 libbenchmark-dev libnetcdf-dev netcdf-bin libcereal-dev libcpp-httplib-dev nlohmann-json3-dev libtomlplusplus-dev pkgconf \
-  python3-minimal procps gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
+  python3 procps gnuplot-nox fonts-urw-base35 fontconfig poppler-utils \
   texlive-latex-recommended texlive-fonts-recommended
 
 doc-deps: PACKAGES := doxygen
