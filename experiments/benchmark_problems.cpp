@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   long rigs = 20;
   long evaluations = 0;
   long most_evaluations = 100000;
-  add_output(app, output, "CSV with one row a problem, sampler and number of evaluations");
+  add_output(app, output, "CSV with one row for each problem, sampler and number of evaluations");
   app.add_option("--problem", only, "Only problems whose name begins so, for example 'banana'")
       ->type_name("TEXT");
   app.add_option("--sampler", only_sampler, "Only this sampler, for example 'better moves'")

@@ -37,7 +37,8 @@ int main(int argc, char** argv) {
   RunOptions run_options;
   replication::CalibrationOptions options;
   std::string ranks_output;
-  add_output(app, output, "CSV with one row a sampler and parameter: chi^2 of the ranks, p-values, coverage");
+  add_output(app, output,
+             "CSV with one row for each sampler and parameter: chi^2 of the ranks, p-values, coverage");
   add_output(app, "--ranks-output", ranks_output, "CSV of the rank histograms with their 99 % bands");
   app.add_option("--runs", options.replications, "Simulated data sets")->transform(count());
   app.add_option("--draws", options.draws, "Posterior draws that the truth is ranked among")

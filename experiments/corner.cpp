@@ -28,11 +28,12 @@ int main(int argc, char** argv) {
   long bins = 40;
   add_output(app, output, "CSV: x_parameter, y_parameter, x, y (middle of a cell), density, level");
   add_output(app, "--marginals-output", marginals_output, "CSV: parameter, low, high, density of each bin");
-  add_output(
-      app, "--summary-output", summary_output,
-      "CSV: a row a parameter with moments, quantiles, the range that is drawn and the distance of its tics");
+  add_output(app, "--summary-output", summary_output,
+             "CSV: a row for each parameter with moments, quantiles, the range that is drawn and the "
+             "distance of its tics");
   add_input(app, "--input", input,
-            "Samples: a column a parameter; those named sampler, run and log_likelihood are none, and weight "
+            "Samples: a column for each parameter; those named sampler, run and log_likelihood are none, and "
+            "weight "
             "holds the weights");
   app.add_option("--bins", bins, "Bins of each parameter")->transform(count(1, 1000));
 

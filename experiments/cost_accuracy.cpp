@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   long studies = 4;
   std::string only;
   add_output(app, output,
-             "CSV with one row a setting: evaluations, p-box areas, errors of means and log-evidence");
+             "CSV with one row for each setting: evaluations, p-box areas, errors of means and log-evidence");
   app.add_option("--studies", studies, "K, studies of R runs a setting; areas are given over these")
       ->transform(count(1, 1000000));
   app.add_option("--family", only, "Only settings of this family, for example 'better moves'")

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   SamplerOptions sampler;
   RunOptions run_options;
   run_options.runs = 10;
-  add_output(app, output, "CSV with one row a stage of each run of TMCMC, and TMCMC-II beside it");
+  add_output(app, output, "CSV with one row for each stage of each run of TMCMC, and TMCMC-II beside it");
   inputs.add_to(app);
   run_options.add_to(app);
   sampler.add_to(app);

@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
       histogram_output, pbox_output;
   auto* const of_runs = add_input(app, "--runs-input", runs_input, "--runs-output of sampling_study");
   auto* const of_samples = add_input(app, "--samples-input", samples_input, "--output of sampling_study");
-  add_output(app, output, "CSV: one row a parameter with moments and quantiles, Laplace and least squares");
+  add_output(app, output,
+             "CSV: one row for each parameter with moments and quantiles, Laplace and least squares");
   add_output(app, "--summary-output", summary_output,
              "CSV: quantity, value: log-evidence, its error, Laplace's, P(F_mu > threshold)");
   add_output(app, "--marginals-output", marginals_output, "CSV: parameter, x, density, cdf, laplace_density");

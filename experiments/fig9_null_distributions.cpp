@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
              "CSV: sampler, iterations, runs, share_of_studies, printed");
   add_output(app, "--printed-output", printed_output, "CSV: sampler, parameter, printed, low, high, p");
   add_output(app, "--pairs-output", pairs_output,
-             "CSV: areas of the friction force under both samplers, a row a study");
+             "CSV: areas of the friction force under both samplers, a row for each study");
   add_input(app, "--replicated", replicated, "Studies written by replicated_study");
   add_input(app, "--table3", table3, "Table 3 as printed");
   add_input(app, "--table4", table4, "Table 4 as printed");

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   PhysicsOptions physics;
   estimation::LeastSquaresOptions options;
   add_output(app, output,
-             "CSV: one row a parameter with estimate, standard errors, chi^2 and how the fit went");
+             "CSV: one row for each parameter with estimate, standard errors, chi^2 and how the fit went");
   inputs.add_observations_to(app);
   app.add_option("--phase-noise", options.phase_noise_deg, "sigma of the phase angle, deg")
       ->transform(positive());

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   long samples = 1000;
   std::string table3 = published("table3_pbox_area.csv");
   std::string table4 = published("table4_iteration_counts.csv");
-  add_output(app, output, "CSV with one row a reading and sampler");
+  add_output(app, output, "CSV with one row for each reading and sampler");
   inputs.add_observations_to(app);
   run_options.add_to(app, 2);
   app.add_option("--studies", studies, "Replicated studies a reading")->transform(count(3, 1000000));

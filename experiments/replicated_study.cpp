@@ -43,8 +43,9 @@ int main(int argc, char** argv) {
   SamplerOptions sampler;
   RunOptions run_options;
   long studies = 1000, first_study = 0;
-  add_output(app, output,
-             "CSV with one row a study and sampler. A shard with --first-study above 0 has no header line");
+  add_output(
+      app, output,
+      "CSV with one row for each study and sampler. A shard with --first-study above 0 has no header line");
   app.add_option("--studies", studies, "Number of studies, of both samplers each")
       ->transform(count(1, 100000000));
   app.add_option("--first-study", first_study, "Number of the first study, for sharing the work")

@@ -74,8 +74,9 @@ int main(int argc, char** argv) {
   add_output(app, output,
              "CSV of all posterior samples: sampler, run, the four parameters, and weight with --finish "
              "independent");
-  add_output(app, "--runs-output", runs_output, "CSV with one row a run: iterations, log-evidence, moments");
-  add_output(app, "--stages-output", stages_output, "CSV with one row a stage of each run");
+  add_output(app, "--runs-output", runs_output,
+             "CSV with one row for each run: iterations, log-evidence, moments");
+  add_output(app, "--stages-output", stages_output, "CSV with one row for each stage of each run");
   inputs.add_to(app);
   run_options.add_to(app);
   sampler.add_to(app);

@@ -97,9 +97,9 @@ int main(int argc, char** argv) {
   std::string output;
   long most_samples = 1000000, repetitions = 5;
   int most_threads = 0;
-  add_output(
-      app, output,
-      "CSV, one row a setting: stages and evaluations, best time, peak memory beyond what was in use before");
+  add_output(app, output,
+             "CSV, one row for each setting: stages and evaluations, best time, peak memory beyond what was "
+             "in use before");
   app.add_option("--most-samples", most_samples, "Settings with more samples are left out")
       ->transform(count(100, 1000000));
   app.add_option("--most-threads", most_threads, "Most threads; 0: as many as the machine has")

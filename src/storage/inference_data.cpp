@@ -132,7 +132,7 @@ void fill(int file, const InferenceData& data) {
       if (values.rows() != data.samples.rows() || values.cols() != observations) {
         throw errors::InvalidValue("log-likelihoods of " + name,
                                    std::to_string(values.rows()) + " x " + std::to_string(values.cols()),
-                                   "a row a sample and a column an observation");
+                                   "a row for each sample and a column for each observation");
       }
       const Eigen::MatrixXd draw_by_draw = values.transpose();
       group.variable(name, dimensions, draw_by_draw.data());

@@ -32,7 +32,8 @@ struct NoFinish {
 /// 3. q is frozen, and the rest are independent draws from it. With weights w = L p / q the
 ///    log-evidence is log(mean w). No draw that a fit has seen is among them, so that the mean
 ///    weight is unbiased and its error that of independent weights (up to the trial draws, which
-///    the decision to go on has seen).
+///    the decision to go on has seen). Where they are worth fewer than four, the fit has failed: then all
+///    draws of searches and fits count, by the mixture of their densities (WarningKind::low_overlap).
 ///
 /// A mode that both searches have missed leaves no trace. The draws of each alone are therefore
 /// compared with the final ones: a part m_1 of the posterior missed by one search and m_2 by the
@@ -46,14 +47,14 @@ struct IndependentDraws {
 
   /// Share of the evaluations for the two searches together; they get 1300 besides, but never more
   /// than 0.64 of what there is.
-  double search_share = 0.32;
+  double search_share = 0.28;
   /// Effective share of the trial draws below which the fit is improved.
   double least_effective_share = 0.25;
   /// Share of the draws that are from the prior.
   double prior_share = 0.02;
   /// Share of the draws that are from the searches' fits at beta below 0.3.
   double tempered_share = 0.05;
-  /// Share of the draws that are from the fit with wider components, see with_wider_components();
+  /// Share of the draws that are from wider components, see StudentMixture::wide_share;
   /// half as much again in the searches.
   double wide_share = 0.1;
   /// Of the densities.

@@ -30,13 +30,18 @@ double product_sum(const double* x, const double* y, Index n) {
   return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i] * y[i]; });
 }
 
-/// Log-density of each point; unit = weight / density, of which a component takes its term.
+/// unit = weight / density, of which a component takes its term.
 PORTABLE_MATH_MULTIVERSION
-void shared_weights(Index rows, const double* weights, const double* sum, const double* log_scale,
-                    double* log_density, double* unit) {
+void share_weights(Index rows, const double* weights, const double* sum, double* unit) {
+  for (Index i = 0; i < rows; ++i) {
+    unit[i] = sum[i] > 0.0 ? weights[i] / sum[i] : 0.0;
+  }
+}
+
+PORTABLE_MATH_MULTIVERSION
+void logarithms(Index rows, const double* sum, const double* log_scale, double* log_density) {
   for (Index i = 0; i < rows; ++i) {
     log_density[i] = log_scale[i] + portable_math::log(sum[i]);
-    unit[i] = sum[i] > 0.0 ? weights[i] / sum[i] : 0.0;
   }
 }
 
@@ -62,14 +67,17 @@ class Fit {
   }
 
   [[nodiscard]] StudentMixture improve(StudentMixture mixture) {
+    constexpr int fewest_iterations = 4;
     double before = -std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+    for (int iteration = 1; iteration <= options_.most_iterations; ++iteration) {
       if (look_) {
         look_();
       }
-      const double mean_log_density = expect(mixture);
+      const bool is_compared =
+          iteration + 1 >= fewest_iterations && options_.most_iterations > fewest_iterations;
+      const double mean_log_density = expect(mixture, is_compared);
       maximise(mixture);
-      if (iteration > 2 && mean_log_density - before < options_.tolerance) {
+      if (iteration >= fewest_iterations && mean_log_density - before < options_.tolerance) {
         break;
       }
       before = mean_log_density;
@@ -146,8 +154,9 @@ class Fit {
     return mixture;
   }
 
-  /// E-step and the sums of the M-step; returns the mean log-density.
-  double expect(const StudentMixture& mixture) {
+  /// E-step and the sums of the M-step.
+  /// \return  the mean log-density if it is asked for, else 0
+  double expect(const StudentMixture& mixture, bool has_density) {
     const Index components = mixture.size();
     detail::MixtureTerms terms(mixture);
     moments_.assign(static_cast<std::size_t>(components), Moments(d_));
@@ -158,8 +167,11 @@ class Fit {
       const Index rows = std::min(detail::mixture_rows, n_ - begin);
       const double* weights = data_.weights.data() + begin;
       terms.evaluate(data_.points.data() + begin, n_, rows);
-      shared_weights(rows, weights, terms.sum(), terms.log_scale(), log_density, unit);
-      log_density_sum += product_sum(weights, log_density, rows);
+      share_weights(rows, weights, terms.sum(), unit);
+      if (has_density) {
+        logarithms(rows, terms.sum(), terms.log_scale(), log_density);
+        log_density_sum += product_sum(weights, log_density, rows);
+      }
       for (Index k = 0; k < components; ++k) {
         add_moments({data_.points.data() + begin, n_, rows, unit}, terms, mixture, k,
                     moments_[static_cast<std::size_t>(k)]);

@@ -37,6 +37,15 @@ void log_mixture(Index n, double prior_draws, const double* fitted, const double
   }
 }
 
+/// result = n (1 - s exp(log_prior - log_own)), of draws of one density: n (1 - s) f over their density f (1 - s) + s p.
+PORTABLE_MATH_MULTIVERSION
+void relative_to_own(Index rows, double n, double prior_share, const double* log_prior, const double* log_own,
+                     double* result) {
+  for (Index i = 0; i < rows; ++i) {
+    result[i] = n * (1.0 - prior_share * portable_math::exp(log_prior[i] - log_own[i]));
+  }
+}
+
 /// sum_r n_r s_r: the draws that the prior makes up.
 double prior_draws(const ReferenceDraws& draws) {
   double result = 0.0;
@@ -117,12 +126,13 @@ ReferenceDraws draw_and_evaluate(const Problem& problem, const ReferenceDensity&
       .log_prior = {},
       .log_likelihood = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN()),
       .log_own = {},
-      .fitted = Eigen::VectorXd::Zero(n),
+      .fitted = Eigen::VectorXd(n),
       .references = {reference},
       .counts = {n}};
   draws.log_prior = log_prior_density(draws.z, problem.prior, threads);
   draws.log_own = log_density(reference, draws.z, draws.log_prior, threads);
-  add_references(draws.references, draws.counts, draws.z, draws.log_own, draws.fitted, threads, problem.look);
+  relative_to_own(n, static_cast<double>(n), reference.prior_share, draws.log_prior.data(),
+                  draws.log_own.data(), draws.fitted.data());
   const Population x = from_unbounded(draws.z, problem.prior);
   for_each_block(n, rows_per_call(n, threads, batch_rows), threads, [&](Index, Index begin, Index end) {
     problem.log_likelihood(x.middleRows(begin, end - begin),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "portable_math/multiversion.hpp"
+#include "portable_math/sums.hpp"
 #include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/detail/separate_modes.hpp"
 #include "tmcmc/log_weights.hpp"
@@ -16,6 +18,12 @@ Index feasible_draws(const ReferenceDraws& draws) {
   return (draws.log_likelihood.array() > -detail::infinity).count();
 }
 
+PORTABLE_MATH_MULTIVERSION
+double sum(const Eigen::VectorXd& x) {
+  const double* values = x.data();
+  return portable_math::sum_of(static_cast<std::size_t>(x.size()), [=](std::size_t i) { return values[i]; });
+}
+
 /// Points whose weights sum to their effective size, without those of less than a hundredth of the mean weight.
 WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double effective) {
   constexpr double least_weight = 0.01;
@@ -24,24 +32,16 @@ WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_
     return data;
   }
   const Eigen::VectorXd weights = normalised_weights(as_span(log_weight));
-  double total = 0.0;
+  data.groups.resize(static_cast<std::size_t>(weights.size()));
+  std::size_t kept = 0;
   for (Index i = 0; i < weights.size(); ++i) {
-    if (weights[i] >= least_weight) {
-      data.groups.push_back(i);
-      total += weights[i];
-    }
+    data.groups[kept] = i;
+    kept += weights[i] >= least_weight ? 1 : 0;
   }
-  const auto n = static_cast<Index>(data.groups.size());
-  data.points.resize(n, draws.z.cols());
-  data.weights.resize(n);
-  for (Index j = 0; j < draws.z.cols(); ++j) {
-    for (Index i = 0; i < n; ++i) {
-      data.points(i, j) = draws.z(data.groups[static_cast<std::size_t>(i)], j);
-    }
-  }
-  for (Index i = 0; i < n; ++i) {
-    data.weights[i] = weights[data.groups[static_cast<std::size_t>(i)]] * (effective / total);
-  }
+  data.groups.resize(kept);
+  data.points = draws.z(data.groups, Eigen::all);
+  data.weights = weights(data.groups);
+  data.weights *= effective / sum(data.weights);
   return data;
 }
 
@@ -184,10 +184,9 @@ Search search_once(const Problem& problem, const SearchOptions& options, const S
     if (is_enough || left <= 0) {
       return search;
     }
-    draw(is_fitted
-             ? ReferenceDensity{with_wider_components(search.fit, options.wide_share), options.prior_share}
-             : prior,
-         left);
+    ReferenceDensity fitted{search.fit, options.prior_share};
+    fitted.fitted.wide_share = options.wide_share;
+    draw(is_fitted ? fitted : prior, left);
   }
 }
 

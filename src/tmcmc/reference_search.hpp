@@ -76,7 +76,7 @@ struct SearchOptions {
   double most_target = 100.0;  ///< to which it grows where a search ends early
   double enough = 1500.0;      ///< effective size at beta = 1 that ends a search
   double prior_share = 0.02;   ///< of the draws of a round
-  double wide_share = 0.15;    ///< of the others, see with_wider_components()
+  double wide_share = 0.15;    ///< of the others, see StudentMixture
   MixtureFitOptions fit = {};  ///< of the densities
   int threads = 1;             ///< over the rows of a batch
   Index batch_rows = 2048;     ///< see Options::batch_rows

@@ -68,16 +68,9 @@ StudentMixture blend(const StudentMixture& a, double share, const StudentMixture
   return result;
 }
 
-StudentMixture with_wider_components(const StudentMixture& mixture, double share) {
-  if (share == 0.0) {
-    return mixture;
-  }
+double StudentMixture::wider() const {
   constexpr double log_most_volume = 4.0 * std::numbers::ln2;
-  StudentMixture wider = mixture;
-  for (Eigen::MatrixXd& factor : wider.factors) {
-    factor *= std::min(2.0, portable_math::exp(log_most_volume / static_cast<double>(mixture.dimension())));
-  }
-  return blend(wider, share, mixture);
+  return std::min(2.0, portable_math::exp(log_most_volume / static_cast<double>(dimension())));
 }
 
 }  // namespace tmcmc

@@ -14,17 +14,23 @@ namespace tmcmc {
 ///     q(z) = sum_k w_k t(z; m_k, L_k L_k^T, nu),
 ///     t(z; m, S, nu) = Gamma((nu+d)/2) / (Gamma(nu/2) (nu pi)^(d/2) |S|^(1/2)) (1 + (z-m)^T S^-1 (z-m) / nu)^(-(nu+d)/2).
 ///
-/// Its tails fall off like a power of the distance, so that importance weights of a target with lighter tails are bounded.
+/// Its tails fall off like a power of the distance, so that importance weights of a target with lighter tails are bounded. Where they are
+/// still too light in one direction, such as that of a parameter which the data bound from one side alone, a share v of each component
+/// may be wider: t(z; m, S, nu) becomes (1 - v) t(z; m, S, nu) + v t(z; m, c^2 S, nu), c = min(2, 2^(4/d)), so that a component takes up
+/// to 16 times its volume.
 struct StudentMixture {
   Eigen::VectorXd weights;               ///< w_k, K of them; their sum need not be 1
   Eigen::MatrixXd means;                 ///< m_k, d x K, one column per component
   std::vector<Eigen::MatrixXd> factors;  ///< L_k, lower triangular with a positive diagonal, d x d each
   int degrees_of_freedom = 8;            ///< nu, even and positive
+  double wide_share = 0.0;               ///< v, from 0 to less than 1
 
   /// K, the number of components.
   [[nodiscard]] Index size() const { return weights.size(); }
   /// d, the number of coordinates.
   [[nodiscard]] Index dimension() const { return means.rows(); }
+  /// c, the factor of the widths of the wider share.
+  [[nodiscard]] double wider() const;
 };
 
 /// log q of each row.
@@ -33,20 +39,15 @@ struct StudentMixture {
 [[nodiscard]] Eigen::VectorXd log_density(const StudentMixture& mixture, const Population& points,
                                           int threads = 1);
 
-/// n draws, n x d. Component k gets its share n w_k of the draws, rounded so that the expected number is exact (one uniform
+/// n draws, n x d. Component k gets its share n w_k of the draws, and of these its wider part the share v, rounded so that the expected number is exact (one uniform
 /// number for all components): less spread than independent components, and the mean of any function stays unbiased. The
 /// draws stand in the order of the components. For even nu, chi^2_nu = -2 log(u_1 u_2 ... u_{nu/2}).
 /// \param stage  of Purpose::reference; separates draws of one key
 [[nodiscard]] Population sample(const StudentMixture& mixture, Index n, const StreamKey& key,
                                 std::uint32_t stage, int threads = 1);
 
-/// share * a + (1 - share) * b. Both must have the same degrees of freedom.
+/// share * a + (1 - share) * b. Both must have the same degrees of freedom; a's wide share becomes that of all components.
 [[nodiscard]] StudentMixture blend(const StudentMixture& a, double share, const StudentMixture& b);
-
-/// A share of the same components with larger scales: F_k = c L_k, c = min(2, 2^(4/d)), so that a component takes up to 16 times its
-/// volume. Where the fit's tails are too light in one direction, such as that of a parameter which the data bound from one side alone,
-/// they bound the importance weights.
-[[nodiscard]] StudentMixture with_wider_components(const StudentMixture& mixture, double share);
 
 /// Numbers of n draws that go to parts of the given shares: floor of the cumulative share times n plus `uniform`, as in
 /// systematic resampling. They sum to n, and their means over `uniform` in (0, 1) are exact.

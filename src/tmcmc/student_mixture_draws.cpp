@@ -115,7 +115,13 @@ Population sample(const StudentMixture& mixture, Index n, const StreamKey& key, 
   const Index d = mixture.dimension();
   const Words words =
       random_words(key, {.purpose = Purpose::reference, .stage = stage, .block = counts_block});
-  const auto counts = systematic_counts(as_span(mixture.weights), n, uniform_open(words[0]));
+  const double wider = mixture.wider();
+  std::vector<double> shares;  // of each component, and of its wider part
+  for (const double weight : mixture.weights) {
+    shares.push_back((1.0 - mixture.wide_share) * weight);
+    shares.push_back(mixture.wide_share * weight);
+  }
+  const auto counts = systematic_counts(shares, n, uniform_open(words[0]));
   Population points(n, d);
   std::vector<Index> ends(counts.size());
   Index end_of_component = 0;
@@ -125,22 +131,24 @@ Population sample(const StudentMixture& mixture, Index n, const StreamKey& key, 
   static_assert(reduction_rows % lanes == 0, "a block starts with new lanes");
   for_each_block(n, reduction_rows, threads, [&](Index, Index begin, Index end) {
     Draws draws(d, mixture.degrees_of_freedom);
-    std::size_t k = 0;
+    std::size_t part = 0;
     for (Index first = begin; first < end; first += static_cast<Index>(lanes)) {
       draws.draw(key, stage, static_cast<std::uint64_t>(first));
       const Index last = std::min(end, first + static_cast<Index>(lanes));
       for (Index i = first; i < last;) {  // runs of one component
-        while (ends[k] <= i) {
-          ++k;
+        while (ends[part] <= i) {
+          ++part;
         }
-        const Index stop = std::min(last, ends[k]);
+        const Index stop = std::min(last, ends[part]);
         const Index offset = i - first;
+        const std::size_t k = part / 2;
+        const double scale = part % 2 == 0 ? 1.0 : wider;
         const Eigen::MatrixXd& factor = mixture.factors[k];
         for (Index j = 0; j < d; ++j) {
           double* x = points.col(j).data() + i;
           std::fill(x, x + (stop - i), mixture.means(j, static_cast<Index>(k)));
           for (Index l = 0; l <= j; ++l) {
-            add_stretched(factor(j, l), draws.normal(l) + offset, draws.stretch() + offset, x,
+            add_stretched(scale * factor(j, l), draws.normal(l) + offset, draws.stretch() + offset, x,
                           static_cast<std::size_t>(stop - i));
           }
         }

@@ -126,52 +126,70 @@ TEST_CASE("Sums of densities are relative to the given scale, whatever its level
   }
 }
 
-TEST_CASE("Densities in few dimensions and in many are the same function") {
+TEST_CASE("Densities in few dimensions and in many are the same function, with and without a wider share") {
   // A coordinate that is independent of the others factorises out of a normal, but not of Student's t: so compare with the definition.
   for (const Index d : {1, 2, 3, 4, 5, 6, 7, 9}) {
     for (const int nu : {4, 8}) {
-      StudentMixture t;
-      t.degrees_of_freedom = nu;
-      t.weights = Eigen::VectorXd::Ones(1);
-      t.means = Eigen::VectorXd::LinSpaced(d, -1.0, 2.0);
-      Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(d, d);
-      for (Index j = 0; j < d; ++j) {
-        for (Index l = 0; l < j; ++l) {
-          factor(j, l) = 0.1 * static_cast<double>(j - 2 * l);
+      for (const double wide_share : {0.0, 0.25}) {
+        StudentMixture t;
+        t.degrees_of_freedom = nu;
+        t.wide_share = wide_share;
+        t.weights = Eigen::VectorXd::Ones(1);
+        t.means = Eigen::VectorXd::LinSpaced(d, -1.0, 2.0);
+        Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(d, d);
+        for (Index j = 0; j < d; ++j) {
+          for (Index l = 0; l < j; ++l) {
+            factor(j, l) = 0.1 * static_cast<double>(j - 2 * l);
+          }
+          factor(j, j) = 0.5 + 0.25 * static_cast<double>(j);
         }
-        factor(j, j) = 0.5 + 0.25 * static_cast<double>(j);
-      }
-      t.factors = {factor};
-      const Population points = sample(t, 50, {.seed = 6}, 0);
-      const Eigen::VectorXd found = log_density(t, points);
-      for (Index i = 0; i < points.rows(); ++i) {
-        const Eigen::VectorXd white =
-            factor.triangularView<Eigen::Lower>().solve(points.row(i).transpose() - t.means);
-        const double half = 0.5 * static_cast<double>(nu + d);
-        const double expected = std::lgamma(half) - std::lgamma(0.5 * nu) -
-                                0.5 * static_cast<double>(d) * std::log(nu * std::acos(-1.0)) -
-                                factor.diagonal().array().log().sum() -
-                                half * std::log1p(white.squaredNorm() / nu);
-        CHECK(found[i] == Approx(expected).epsilon(1e-12).margin(1e-12));
+        t.factors = {factor};
+        Population points = sample(t, 50, {.seed = 6}, 0);
+        points.row(0) *= 1e30;  // where the powers underflow
+        const Eigen::VectorXd found = log_density(t, points);
+        const double wider = std::min(2.0, std::pow(2.0, 4.0 / static_cast<double>(d)));
+        for (Index i = 0; i < points.rows(); ++i) {
+          const Eigen::VectorXd white =
+              factor.triangularView<Eigen::Lower>().solve(points.row(i).transpose() - t.means);
+          const double half = 0.5 * static_cast<double>(nu + d);
+          const auto log_t = [&](double c) {
+            return std::lgamma(half) - std::lgamma(0.5 * nu) -
+                   0.5 * static_cast<double>(d) * std::log(nu * std::acos(-1.0)) -
+                   (c * factor).diagonal().array().log().sum() -
+                   half * std::log1p(white.squaredNorm() / (c * c) / nu);
+          };
+          const double narrow = log_t(1.0);
+          const double expected =
+              narrow + std::log(1.0 - wide_share + wide_share * std::exp(log_t(wider) - narrow));
+          CHECK(found[i] == Approx(expected).epsilon(1e-12).margin(1e-12));
+        }
       }
     }
   }
 }
 
-TEST_CASE("Wider components keep the means, and take at most 16 times the volume and twice the width") {
+TEST_CASE("A wider share has the means, and at most 16 times the volume and twice the width") {
   for (const Index d : {1, 4, 8}) {
     StudentMixture t;
     t.weights = Eigen::VectorXd::Ones(1);
-    t.means = Eigen::VectorXd::Ones(d);
+    t.means = Eigen::VectorXd::Constant(d, 5.0);
     t.factors = {3.0 * Eigen::MatrixXd::Identity(d, d)};
-    const StudentMixture wide = with_wider_components(t, 0.25);
-    REQUIRE(wide.size() == 2);
-    CHECK(wide.weights == Eigen::Vector2d(0.25, 0.75));
-    CHECK(wide.means.col(0) == t.means);
-    const double width = wide.factors[0](0, 0) / 3.0;
-    CHECK(width == Approx(d <= 4 ? 2.0 : std::pow(16.0, 1.0 / static_cast<double>(d))).epsilon(rounding));
-    CHECK(wide.factors[1] == t.factors[0]);
-    CHECK(with_wider_components(t, 0.0).size() == 1);
+    t.wide_share = 0.25;
+    const double width = d <= 4 ? 2.0 : std::pow(16.0, 1.0 / static_cast<double>(d));
+    CHECK(t.wider() == Approx(width).epsilon(rounding));
+    const Index n = 40000;
+    const Population x = sample(t, n, {.seed = 8}, 0);
+    const Index narrow = n * 3 / 4;  // the draws stand in the order of the parts
+    const double variance_of_t = 8.0 / 6.0;
+    const auto variance_of = [](const auto& part) { return (part.array() - 5.0).square().mean(); };
+    // Of Student's t with 8 degrees of freedom the kurtosis is 4.5, so the variance of a square is 3.5 times its squared mean.
+    const auto bound = [&](Index rows) { return 5.0 * std::sqrt(3.5 / static_cast<double>(rows)); };
+    for (Index j = 0; j < d; ++j) {
+      CHECK(variance_of(x.col(j).head(narrow)) / (9.0 * variance_of_t) == Approx(1.0).margin(bound(narrow)));
+      CHECK(variance_of(x.col(j).tail(n - narrow)) / (9.0 * variance_of_t * width * width) ==
+            Approx(1.0).margin(bound(n - narrow)));
+      CHECK(x.col(j).mean() == Approx(5.0).margin(5.0 * 3.0 * width * std::sqrt(variance_of_t / n)));
+    }
   }
 }
 

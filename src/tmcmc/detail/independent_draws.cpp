@@ -20,6 +20,7 @@ constexpr double share_of_a_good_fit = 0.65;  // of the first trial draws
 constexpr double share_of_a_poor_fit = 0.1;   // below it there are more attempts
 constexpr std::uint32_t most_attempts = 4;    // of the joint fit
 constexpr std::uint32_t most_attempts_poor = 12;
+constexpr double few_effective = 4.0;  // of the final draws: below it the fit has failed, and all draws count
 
 /// A stream that is independent of the key's own.
 StreamKey derived(const StreamKey& key, std::uint32_t number) {
@@ -62,18 +63,18 @@ SearchOptions search_options(const Options& options, const IndependentDraws& set
           .batch_rows = options.batch_rows};
 }
 
-/// The fit with shares of wider components, of the tempered fits, if there are any, and of the prior.
+/// The fit with shares of the tempered fits, if there are any, of wider components, and of the prior.
 ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMixture& fit,
                               const std::array<Search, 2>& searches) {
-  const StudentMixture wide = with_wider_components(fit, settings.wide_share);
   const StudentMixture& a = searches[0].tempered;
   const StudentMixture& b = searches[1].tempered;
-  if (a.size() == 0 && b.size() == 0) {
-    return {.fitted = wide, .prior_share = settings.prior_share};
+  ReferenceDensity reference{.fitted = fit, .prior_share = settings.prior_share};
+  if (a.size() > 0 || b.size() > 0) {
+    const StudentMixture tempered = a.size() > 0 && b.size() > 0 ? blend(a, 0.5, b) : (a.size() > 0 ? a : b);
+    reference.fitted = blend(fit, 1.0 - settings.tempered_share, tempered);
   }
-  const StudentMixture tempered = a.size() > 0 && b.size() > 0 ? blend(a, 0.5, b) : (a.size() > 0 ? a : b);
-  return {.fitted = blend(wide, 1.0 - settings.tempered_share, tempered),
-          .prior_share = settings.prior_share};
+  reference.fitted.wide_share = settings.wide_share;
+  return reference;
 }
 
 /// The points of both, each with their own weights. Since a density is fitted to them, and no more, the evidence of one search
@@ -139,6 +140,7 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
     warn(Kind::searches_differ, "the product of the posterior masses that each of two searches has missed",
          missed_by_both, "above", most_missed_by_both, advice);
   }
+  constexpr Index fewest_search_draws = 2400;
   const double fewest_a_mode = measured.modes > 1 ? 25.0 : 40.0;
   if (!(measured.draws_a_mode >= fewest_a_mode)) {
     warn(Kind::few_draws_a_mode,
@@ -147,6 +149,10 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
              : "the number of effective draws that chose beta",
          measured.draws_a_mode, "below", fewest_a_mode,
          "another mode may have been lost; take more evaluations");
+  } else if (measured.search_draws < fewest_search_draws) {
+    warn(Kind::few_draws_a_mode, "the number of draws of the two searches",
+         static_cast<double>(measured.search_draws), "below", static_cast<double>(fewest_search_draws),
+         "they may have missed a small part; take 4000 evaluations or more");
   }
   constexpr double fewest_effective = 250.0;
   constexpr double least_share = 0.05;
@@ -231,6 +237,7 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
     measured.evaluations += searches[k].draws.evaluations();
     measured.modes = std::max(measured.modes, searches[k].most_modes);
   }
+  measured.search_draws = measured.evaluations;
   measured.rounds = records_of(searches[0]);
   if (std::max(measured.search_beta[0], measured.search_beta[1]) < least_beta) {
     take_over(problem, options, derived(key, 3), measured);
@@ -261,6 +268,10 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
     points = fit_points(seen, target);
   }
   draws.append_of_same_density(draw(options.evaluation_budget - measured.evaluations, final_draws_stage));
+  if (seen.z.rows() > 0 && effective_sample_size(as_span(log_weights(draws)), 1.0) < few_effective) {
+    seen.append(draws, threads, problem.look);  // better dependent on the fits than on one draw or two
+    draws = std::move(seen);
+  }
 
   const Eigen::VectorXd log_weight = log_weights(draws);
   const ImportanceEstimate estimate = importance_estimate(as_span(log_weight));

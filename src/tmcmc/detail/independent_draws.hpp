@@ -29,6 +29,8 @@ struct MeasuredPosterior {
   Index modes = 1;
   /// Effective draws that chose beta; where there are several modes, for each of them and one more.
   double draws_a_mode = 0.0;
+  /// Draws of both searches.
+  Index search_draws = 0;
   /// What the draws are from, in unbounded coordinates.
   ReferenceDensity reference;
   /// Temperature that each search has reached.

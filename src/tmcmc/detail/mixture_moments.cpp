@@ -4,13 +4,13 @@
 
 #include "portable_math/multiversion.hpp"
 #include "portable_math/sums.hpp"
+#include "tmcmc/detail/few_coordinates.hpp"
 
 namespace tmcmc::detail {
 
 namespace {
 
 constexpr auto lanes = static_cast<Index>(portable_math::sum_lanes);
-constexpr Index most_of_few = 6;  // coordinates for which there are versions
 constexpr Index most_sums = 2 + most_of_few + most_of_few * (most_of_few + 1) / 2;
 
 /// What one component is moved by.
@@ -97,21 +97,9 @@ PORTABLE_MATH_INLINE void sums_of_many(const MomentPoints& block, const Pulled& 
 
 PORTABLE_MATH_MULTIVERSION
 void sums_of(const MomentPoints& block, const Pulled& component, Index d, double* sums) {
-  switch (d) {
-    case 1:
-      return sums_of_few<1>(block, component, sums);
-    case 2:
-      return sums_of_few<2>(block, component, sums);
-    case 3:
-      return sums_of_few<3>(block, component, sums);
-    case 4:
-      return sums_of_few<4>(block, component, sums);
-    case 5:
-      return sums_of_few<5>(block, component, sums);
-    case 6:
-      return sums_of_few<6>(block, component, sums);
-    default:
-      return sums_of_many(block, component, d, sums);
+  if (!for_few_coordinates(
+          d, [&](auto few) __attribute__((always_inline)) { sums_of_few<few>(block, component, sums); })) {
+    sums_of_many(block, component, d, sums);
   }
 }
 

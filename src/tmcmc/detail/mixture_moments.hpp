@@ -25,7 +25,7 @@ struct MomentPoints {
   const double* unit;  ///< of each point: a component takes unit * term
 };
 
-/// Adds the points to the moments of component k.
+/// Adds the points to the moments of component k of a mixture without wider parts.
 void add_moments(const MomentPoints& block, const MixtureTerms& terms, const StudentMixture& mixture, Index k,
                  Moments& moments);
 

@@ -1,11 +1,13 @@
 #include "tmcmc/detail/mixture_terms.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "portable_math/elementary.hpp"
 #include "portable_math/multiversion.hpp"
+#include "tmcmc/detail/few_coordinates.hpp"
 
 namespace tmcmc::detail {
 
@@ -14,13 +16,38 @@ namespace {
 constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 constexpr int usual_degrees_of_freedom = 8;
 
+/// Logarithm of a product, with few logarithms.
+class LogProduct {
+ public:
+  void multiply(double factor) {
+    product_ *= factor;
+    if (!(product_ > 1e-150 && product_ < 1e150)) {
+      log_ += portable_math::log(product_);
+      product_ = 1.0;
+    }
+  }
+  [[nodiscard]] double log() const { return log_ + portable_math::log(product_); }
+
+ private:
+  double product_ = 1.0;
+  double log_ = 0.0;
+};
+
 /// log Gamma(twice / 2), by the recurrence from Gamma(1) = 1 or Gamma(1/2) = sqrt(pi).
 double log_gamma_of_half(Index twice) {
-  double value = twice % 2 == 0 ? 0.0 : 0.5 * portable_math::log(std::numbers::pi);
-  for (Index k = twice % 2 == 0 ? 2 : 1; k < twice; k += 2) {
-    value += portable_math::log(0.5 * static_cast<double>(k));
+  LogProduct product;
+  if (twice % 2 != 0) {
+    product.multiply(std::sqrt(std::numbers::pi));
   }
-  return value;
+  for (Index k = twice % 2 == 0 ? 2 : 1; k < twice; k += 2) {
+    product.multiply(0.5 * static_cast<double>(k));
+  }
+  return product.log();
+}
+
+/// c^d = min(2^d, 16) of StudentMixture::wider().
+double wider_volume(Index d) {
+  return d < 4 ? static_cast<double>(Index{1} << d) : 16.0;
 }
 
 /// The components, with the constants of their densities.
@@ -31,13 +58,16 @@ std::vector<Component> components_of(const StudentMixture& mixture) {
       log_gamma_of_half(nu + d) - log_gamma_of_half(nu) -
       0.5 * static_cast<double>(d) * portable_math::log(static_cast<double>(nu) * std::numbers::pi);
   std::vector<Component> components;
+  components.reserve(static_cast<std::size_t>(mixture.size()));
   for (Index k = 0; k < mixture.size(); ++k) {
     const Eigen::MatrixXd& factor = mixture.factors[static_cast<std::size_t>(k)];
-    double constant = common + portable_math::log(mixture.weights[k]);
+    LogProduct determinant;
     for (Index j = 0; j < d; ++j) {
-      constant -= portable_math::log(factor(j, j));
+      determinant.multiply(factor(j, j));
     }
-    components.push_back({mixture.means.col(k).data(), factor.data(), constant});
+    const double constant = common + portable_math::log(mixture.weights[k]) - determinant.log();
+    components.push_back(
+        {.mean = mixture.means.col(k).data(), .factor = factor.data(), .log_constant = constant});
   }
   return components;
 }
@@ -53,15 +83,25 @@ PORTABLE_MATH_INLINE double power(double base) {
   }
 }
 
-/// term = factor (1 + distance / 8)^(-(8 + d) / 2) for so few coordinates that those of a point stay in registers, with
-/// distance = |L^-1 (z - m)|^2 by forward substitution; sum += term.
+/// base^((8 + d) / 2), base = 1 / (1 + distance / 8).
 template <int d>
+PORTABLE_MATH_INLINE double student_power(double base) {
+  const double whole = power<(usual_degrees_of_freedom + d) / 2>(base);
+  return d % 2 == 0 ? whole : whole * std::sqrt(base);
+}
+
+/// Terms of one component for so few coordinates that those of a point stay in registers, with distance = |L^-1 (z - m)|^2 by
+/// forward substitution: term = narrow (1 + distance / 8)^(-(8 + d) / 2) + wide (1 + distance / (8 c^2))^(-(8 + d) / 2); sum += term.
+/// \param inverse_square  1 / c^2
+template <int d, bool has_wide>
 PORTABLE_MATH_INLINE void terms_of_few(const double* __restrict points, Index stride, Index rows,
-                                       const Component& component, double factor,
+                                       const Component& component, double inverse_square,
                                        double* __restrict distances, double* __restrict terms,
                                        double* __restrict sum) {
   const double* mean = component.mean;
   const double* lower = component.factor;
+  const double narrow = component.narrow;
+  const double wide = component.wide;
   double inverse[d];
   for (int j = 0; j < d; ++j) {
     inverse[j] = 1.0 / lower[j + j * d];
@@ -80,9 +120,16 @@ PORTABLE_MATH_INLINE void terms_of_few(const double* __restrict points, Index st
       distance += white[j] * white[j];
     }
     distances[i] = distance;
-    const double base = 1.0 / (1.0 + distance * (1.0 / usual_degrees_of_freedom));
-    const double term =
-        (d % 2 == 0 ? factor : factor * std::sqrt(base)) * power<(usual_degrees_of_freedom + d) / 2>(base);
+    const double scaled = distance * (1.0 / usual_degrees_of_freedom);
+    const double stretched = 1.0 + scaled;
+    double term;
+    if constexpr (has_wide) {
+      const double less_stretched = 1.0 + scaled * inverse_square;
+      const double both = 1.0 / (stretched * less_stretched);  // one division for two
+      term = narrow * student_power<d>(both * less_stretched) + wide * student_power<d>(both * stretched);
+    } else {
+      term = narrow * student_power<d>(1.0 / stretched);
+    }
     terms[i] = term;
     sum[i] += term;
   }
@@ -118,21 +165,22 @@ void squared_distances(const double* points, Index stride, Index rows, Index d, 
   }
 }
 
-/// term = factor (1 + distance / nu)^(-twice_exponent / 2), by repeated squaring; sum += term.
+/// term += factor (1 + distance / nu)^(-twice_exponent / 2), by repeated squaring; sum likewise.
 PORTABLE_MATH_MULTIVERSION
 void add_powers(Index rows, double factor, double inverse_nu, Index twice_exponent, const double* distances,
                 double* term, double* sum) {
   double square[mixture_rows];
+  double result[mixture_rows];
   for (Index i = 0; i < rows; ++i) {
     square[i] = 1.0 / (1.0 + distances[i] * inverse_nu);
   }
   for (Index i = 0; i < rows; ++i) {
-    term[i] = twice_exponent % 2 == 0 ? factor : factor * std::sqrt(square[i]);
+    result[i] = twice_exponent % 2 == 0 ? factor : factor * std::sqrt(square[i]);
   }
   for (Index exponent = twice_exponent / 2;;) {
     if (exponent % 2 != 0) {
       for (Index i = 0; i < rows; ++i) {
-        term[i] *= square[i];
+        result[i] *= square[i];
       }
     }
     exponent /= 2;
@@ -144,36 +192,23 @@ void add_powers(Index rows, double factor, double inverse_nu, Index twice_expone
     }
   }
   for (Index i = 0; i < rows; ++i) {
-    sum[i] += term[i];
+    term[i] += result[i];
+    sum[i] += result[i];
   }
 }
 
-/// \return  false where there is no version for so few coordinates and the usual degrees of freedom
+/// \param d  at most most_of_few
 PORTABLE_MATH_MULTIVERSION
-bool are_terms_of_few(Index d, const double* points, Index stride, Index rows, const Component& component,
-                      double factor, double* distances, double* terms, double* sum) {
-  switch (d) {
-    case 1:
-      terms_of_few<1>(points, stride, rows, component, factor, distances, terms, sum);
-      return true;
-    case 2:
-      terms_of_few<2>(points, stride, rows, component, factor, distances, terms, sum);
-      return true;
-    case 3:
-      terms_of_few<3>(points, stride, rows, component, factor, distances, terms, sum);
-      return true;
-    case 4:
-      terms_of_few<4>(points, stride, rows, component, factor, distances, terms, sum);
-      return true;
-    case 5:
-      terms_of_few<5>(points, stride, rows, component, factor, distances, terms, sum);
-      return true;
-    case 6:
-      terms_of_few<6>(points, stride, rows, component, factor, distances, terms, sum);
-      return true;
-    default:
-      return false;
-  }
+void add_terms_of_few(Index d, const double* points, Index stride, Index rows, const Component& component,
+                      double inverse_square, double* distances, double* terms, double* sum) {
+  for_few_coordinates(
+      d, [&](auto few) __attribute__((always_inline)) {
+        if (component.wide > 0.0) {
+          terms_of_few<few, true>(points, stride, rows, component, inverse_square, distances, terms, sum);
+        } else {
+          terms_of_few<few, false>(points, stride, rows, component, inverse_square, distances, terms, sum);
+        }
+      });
 }
 
 /// Whether all are, none of them NaN.
@@ -192,7 +227,9 @@ MixtureTerms::MixtureTerms(const StudentMixture& mixture)
     : components_(components_of(mixture)),
       d_(mixture.dimension()),
       degrees_of_freedom_(mixture.degrees_of_freedom),
-      white_(mixture_rows, d_),
+      wide_share_(mixture.wide_share),
+      inverse_square_(1.0 / (mixture.wider() * mixture.wider())),
+      white_(is_usual() ? 0 : mixture_rows, d_),
       distances_(mixture_rows, mixture.size()),
       terms_(mixture_rows, mixture.size()),
       sum_(mixture_rows),
@@ -202,6 +239,15 @@ MixtureTerms::MixtureTerms(const StudentMixture& mixture)
     largest = component.log_constant > largest ? component.log_constant : largest;
   }
   log_largest_ = largest == minus_infinity ? 0.0 : largest;
+  for (Component& component : components_) {
+    const double constant = portable_math::exp(component.log_constant - log_largest_);
+    component.narrow = (1.0 - wide_share_) * constant;
+    component.wide = wide_share_ * constant / wider_volume(d_);
+  }
+}
+
+bool MixtureTerms::is_usual() const {
+  return degrees_of_freedom_ == usual_degrees_of_freedom && d_ <= most_of_few;
 }
 
 void MixtureTerms::evaluate(const double* points, Index stride, Index rows) {
@@ -210,16 +256,20 @@ void MixtureTerms::evaluate(const double* points, Index stride, Index rows) {
   log_scale_.head(rows).setConstant(log_largest_);
   for (std::size_t k = 0; k < components_.size(); ++k) {
     const Component& component = components_[k];
-    const double factor = portable_math::exp(component.log_constant - log_largest_);
     double* distances = distances_.col(static_cast<Index>(k)).data();
     double* terms = terms_.col(static_cast<Index>(k)).data();
-    if (degrees_of_freedom_ == usual_degrees_of_freedom &&
-        are_terms_of_few(d_, points, stride, rows, component, factor, distances, terms, sum_.data())) {
+    if (is_usual()) {
+      add_terms_of_few(d_, points, stride, rows, component, inverse_square_, distances, terms, sum_.data());
       continue;
     }
+    const double inverse_nu = 1.0 / static_cast<double>(degrees_of_freedom_);
+    const Index exponent = degrees_of_freedom_ + d_;
     squared_distances(points, stride, rows, d_, component.mean, component.factor, white_.data(), distances);
-    add_powers(rows, factor, 1.0 / static_cast<double>(degrees_of_freedom_), degrees_of_freedom_ + d_,
-               distances, terms, sum_.data());
+    std::fill(terms, terms + rows, 0.0);
+    add_powers(rows, component.narrow, inverse_nu, exponent, distances, terms, sum_.data());
+    if (component.wide > 0.0) {
+      add_powers(rows, component.wide, inverse_nu * inverse_square_, exponent, distances, terms, sum_.data());
+    }
   }
   if (are_above(rows, least_sum, sum_.data())) {
     return;
@@ -233,18 +283,27 @@ void MixtureTerms::evaluate(const double* points, Index stride, Index rows) {
 
 /// Where the powers underflow.
 void MixtureTerms::evaluate_by_logarithms(Index i) {
+  using portable_math::exp;
+  using portable_math::log;
   const double inverse_nu = 1.0 / static_cast<double>(degrees_of_freedom_);
   const double exponent = 0.5 * static_cast<double>(degrees_of_freedom_ + d_);
+  const double log_narrow = log(1.0 - wide_share_);
+  const double log_wide = log(wide_share_ / wider_volume(d_));
   double largest = minus_infinity;
   for (Index k = 0; k < terms_.cols(); ++k) {
-    terms_(i, k) = components_[static_cast<std::size_t>(k)].log_constant -
-                   exponent * portable_math::log(1.0 + distances_(i, k) * inverse_nu);
+    const double distance = distances_(i, k) * inverse_nu;
+    const double narrow = log_narrow - exponent * log(1.0 + distance);
+    const double wide = log_wide - exponent * log(1.0 + distance * inverse_square_);
+    const double larger = narrow > wide ? narrow : wide;
+    const double smaller = narrow > wide ? wide : narrow;
+    const double constant = components_[static_cast<std::size_t>(k)].log_constant;
+    terms_(i, k) = larger == minus_infinity ? larger : constant + larger + log(1.0 + exp(smaller - larger));
     largest = terms_(i, k) > largest ? terms_(i, k) : largest;
   }
   log_scale_[i] = largest == minus_infinity ? 0.0 : largest;
   sum_[i] = 0.0;
   for (Index k = 0; k < terms_.cols(); ++k) {
-    terms_(i, k) = portable_math::exp(terms_(i, k) - log_scale_[i]);
+    terms_(i, k) = exp(terms_(i, k) - log_scale_[i]);
     sum_[i] += terms_(i, k);
   }
 }

@@ -15,7 +15,9 @@ constexpr Index mixture_rows = 256;
 struct Component {
   const double* mean;    ///< d
   const double* factor;  ///< d x d, by columns
-  double log_constant;   ///< log of its weight times the density at its mean
+  double log_constant;   ///< log of its weight times the density at its mean, without a wider part
+  double narrow = 0.0;   ///< the same relative to the largest constant, of the narrow part
+  double wide = 0.0;     ///< and of the wider one
 };
 
 /// Terms of a mixture at up to mixture_rows points: q(z_i) = exp(log_scale_i) sum_i, of which component k has term_ik. Entry i of
@@ -29,16 +31,21 @@ class MixtureTerms {
 
   /// |L_k^-1 (z_i - m_k)|^2
   [[nodiscard]] const double* distances() const { return distances_.data(); }
+  /// Of a component with its wider part.
   [[nodiscard]] const double* terms() const { return terms_.data(); }
   [[nodiscard]] const double* sum() const { return sum_.data(); }
   [[nodiscard]] const double* log_scale() const { return log_scale_.data(); }
 
  private:
+  /// Whether there is a version for so few coordinates.
+  [[nodiscard]] bool is_usual() const;
   void evaluate_by_logarithms(Index i);
 
   std::vector<Component> components_;
   Index d_;
   Index degrees_of_freedom_;
+  double wide_share_;
+  double inverse_square_;     // 1 / c^2
   double log_largest_ = 0.0;  // constant of a component
   Eigen::ArrayXXd white_, distances_, terms_;
   Eigen::ArrayXd sum_, log_scale_;
