@@ -107,9 +107,8 @@ const std::vector<std::pair<std::string, Model (*)(const ProblemOptions&)>> buil
 }  // namespace
 
 tmcmc::Prior prior_of(const ProblemOptions& options, const problem::ParameterRules& rules) {
-  return options.file() && !options.is_given("--prior")
-             ? problem::read_parameters(*options.file(), rules)
-             : experiments::read_prior(options.prior, {rules.names, rules.nonnegative, rules.require_name});
+  return options.file() && !options.is_given("--prior") ? problem::read_parameters(*options.file(), rules)
+                                                        : problem::read_prior(options.prior, rules);
 }
 
 std::vector<std::string> built_in_names() {

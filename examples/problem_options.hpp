@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "options.hpp"
-#include "prior_file.hpp"
 #include "problem/node.hpp"
+#include "problem/prior_file.hpp"
 #include "tmcmc/options.hpp"
 
 namespace examples {
@@ -40,7 +40,7 @@ class ProblemOptions {
   std::string noise;                ///< the parameter that multiplies the standard deviations; empty: none
   std::vector<double> observed;     ///< numbers of the problem file in the place of the column
   std::vector<double> observed_sd;  ///< likewise
-  experiments::PriorFiles prior;    ///< files in the place of the table of parameters
+  problem::PriorFiles prior;        ///< files in the place of the table of parameters
 
   long evaluations = 31000;  ///< of a run
   long runs = 1;             ///< independent ones

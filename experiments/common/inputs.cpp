@@ -10,7 +10,7 @@
 #include "errors/invalid_value.hpp"
 #include "friction/response.hpp"
 #include "portable_math/normal_quantile.hpp"
-#include "prior_file.hpp"
+#include "problem/prior_file.hpp"
 
 namespace experiments {
 
@@ -113,7 +113,8 @@ friction::Observations read_observations(const std::string& path) {
 }
 
 tmcmc::Prior read_prior(const std::string& path, const std::string& correlations) {
-  return read_prior(PriorFiles{path, correlations}, {.names = prior_rows, .nonnegative = true});
+  return problem::read_prior(problem::PriorFiles{path, correlations},
+                             {.names = prior_rows, .nonnegative = true});
 }
 
 tmcmc::Prior prior_for(const InputFiles& inputs, const replication::Reading& reading) {

@@ -64,7 +64,7 @@ struct ProblemInputs : InputFiles {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
 
-/// The prior of the four parameters of the paper from a file (prior_file.hpp); none of them may be
+/// The prior of the four parameters of the paper from a file (problem/prior_file.hpp); none of them may be
 /// negative.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] tmcmc::Prior read_prior(const std::string& path, const std::string& correlations = {});

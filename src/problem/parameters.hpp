@@ -2,24 +2,11 @@
 /// The prior of a problem file.
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "problem/node.hpp"
+#include "problem/parameter_rules.hpp"
 #include "tmcmc/prior.hpp"
 
 namespace problem {
-
-/// What a model asks of its parameters.
-struct ParameterRules {
-  /// Those that there have to be, in the order of the model; empty: any, in the order of the file.
-  std::vector<std::string> names = {};
-  /// Whether no parameter may be negative.
-  bool nonnegative = false;
-  /// Throws errors::InvalidValue for a name that a parameter must not have; may be empty.
-  std::function<void(const std::string& name)> require_name = {};
-};
 
 /// The table `parameters`, a table for each parameter by its name, and the table `correlation`:
 ///

@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "portable_math/multiversion.hpp"
-#include "portable_math/sums.hpp"
+#include "tmcmc/detail/vector_sums.hpp"
 #include "tmcmc/mixture_fit.hpp"
 
 namespace tmcmc {
 
 namespace {
-
-PORTABLE_MATH_MULTIVERSION
-double product_sum(const double* x, const double* y, Index n) {
-  return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i] * y[i]; });
-}
-
-double sum(const Eigen::VectorXd& x) {
-  return portable_math::sum_of(static_cast<std::size_t>(x.size()),
-                               [&](std::size_t i) { return x[static_cast<Index>(i)]; });
-}
 
 /// The points of even or odd groups.
 WeightedPoints half(const WeightedPoints& data, Index parity) {
@@ -40,7 +29,7 @@ WeightedPoints half(const WeightedPoints& data, Index parity) {
 
 double total_log_density(const StudentMixture& mixture, const WeightedPoints& data) {
   const Eigen::VectorXd densities = log_density(mixture, data.points);
-  return product_sum(densities.data(), data.weights.data(), data.weights.size());
+  return detail::sum_of_products(densities.data(), data.weights.data(), data.weights.size());
 }
 
 Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, const StreamKey& key,
@@ -48,8 +37,8 @@ Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, c
   constexpr double clear_loss = 0.02;
   const WeightedPoints even = half(data, 0);
   const WeightedPoints odd = half(data, 1);
-  const double weight_even = sum(even.weights);
-  const double weight_odd = sum(odd.weights);
+  const double weight_even = detail::sum(even.weights.data(), even.weights.size());
+  const double weight_odd = detail::sum(odd.weights.data(), odd.weights.size());
   if (!(weight_even > 0.0) || !(weight_odd > 0.0)) {
     return 1;
   }

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "portable_math/multiversion.hpp"
-#include "portable_math/sums.hpp"
 #include "tmcmc/detail/clusters.hpp"
 #include "tmcmc/detail/mixture_moments.hpp"
 #include "tmcmc/detail/proposal_covariance.hpp"
+#include "tmcmc/detail/vector_sums.hpp"
 
 namespace tmcmc {
 
@@ -19,16 +19,6 @@ using detail::proposal_covariance;
 using detail::weighted_mean;
 
 namespace {
-
-PORTABLE_MATH_MULTIVERSION
-double sum(const double* x, Index n) {
-  return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i]; });
-}
-
-PORTABLE_MATH_MULTIVERSION
-double product_sum(const double* x, const double* y, Index n) {
-  return portable_math::sum_of(static_cast<std::size_t>(n), [=](std::size_t i) { return x[i] * y[i]; });
-}
 
 /// unit = weight / density, of which a component takes its term.
 PORTABLE_MATH_MULTIVERSION
@@ -50,7 +40,7 @@ class Fit {
  public:
   Fit(const WeightedPoints& data, const MixtureFitOptions& options, const std::function<void()>& look)
       : data_(data), options_(options), look_(look), d_(data.points.cols()), n_(data.points.rows()) {
-    total_ = sum(data.weights.data(), n_);
+    total_ = detail::sum(data.weights.data(), n_);
     if (!(total_ > 0.0) || !std::isfinite(total_)) {
       throw SamplingError("no point has a positive weight to fit a reference density to");
     }
@@ -111,7 +101,7 @@ class Fit {
     for (Index i = 0; i < n; ++i) {
       weights[i] = data_.weights[i * stride];
     }
-    const double total = sum(weights.data(), n);
+    const double total = detail::sum(weights.data(), n);
     if (!(total > 0.0)) {
       return start(1, key, stage);
     }
@@ -170,7 +160,7 @@ class Fit {
       share_weights(rows, weights, terms.sum(), unit);
       if (has_density) {
         logarithms(rows, terms.sum(), terms.log_scale(), log_density);
-        log_density_sum += product_sum(weights, log_density, rows);
+        log_density_sum += detail::sum_of_products(weights, log_density, rows);
       }
       for (Index k = 0; k < components; ++k) {
         add_moments({data_.points.data() + begin, n_, rows, unit}, terms, mixture, k,

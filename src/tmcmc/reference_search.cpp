@@ -4,10 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "portable_math/multiversion.hpp"
-#include "portable_math/sums.hpp"
 #include "tmcmc/detail/infinity.hpp"
 #include "tmcmc/detail/separate_modes.hpp"
+#include "tmcmc/detail/vector_sums.hpp"
 #include "tmcmc/log_weights.hpp"
 
 namespace tmcmc {
@@ -16,12 +15,6 @@ namespace {
 
 Index feasible_draws(const ReferenceDraws& draws) {
   return (draws.log_likelihood.array() > -detail::infinity).count();
-}
-
-PORTABLE_MATH_MULTIVERSION
-double sum(const Eigen::VectorXd& x) {
-  const double* values = x.data();
-  return portable_math::sum_of(static_cast<std::size_t>(x.size()), [=](std::size_t i) { return values[i]; });
 }
 
 /// Points whose weights sum to their effective size, without those of less than a hundredth of the mean weight.
@@ -41,7 +34,7 @@ WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_
   data.groups.resize(kept);
   data.points = draws.z(data.groups, Eigen::all);
   data.weights = weights(data.groups);
-  data.weights *= effective / sum(data.weights);
+  data.weights *= effective / detail::sum(data.weights.data(), data.weights.size());
   return data;
 }
 

@@ -2,27 +2,18 @@
 /// Priors from files: one row per parameter, and a matrix of correlations beside it.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "problem/parameter_rules.hpp"
 #include "tmcmc/prior.hpp"
 
-namespace experiments {
+namespace problem {
 
 /// The prior that the user gives.
 struct PriorFiles {
   std::string marginals;     ///< path of the file with a row for each parameter
   std::string correlations;  ///< path of the matrix; empty for independence
-};
-
-/// What a model asks of its parameters.
-struct ParameterRules {
-  std::vector<std::string>
-      names;  ///< the rows there have to be, in the order of the model; empty: any, in that of the file
-  bool nonnegative = false;  ///< whether no parameter may be negative
-  /// Throws errors::InvalidValue for a name that a parameter must not have; may be empty.
-  std::function<void(const std::string& name)> require_name = {};
 };
 
 /// A file with the columns `parameter`, `distribution`, a column for each argument of the distributions that are used, and
@@ -38,4 +29,4 @@ struct ParameterRules {
 /// Names of the columns that an argument can stand in, each once.
 [[nodiscard]] std::vector<std::string> argument_columns();
 
-}  // namespace experiments
+}  // namespace problem

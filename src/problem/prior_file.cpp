@@ -1,4 +1,4 @@
-#include "prior_file.hpp"
+#include "problem/prior_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,11 +11,10 @@
 #include <optional>
 
 #include "errors/invalid_value.hpp"
-#include "inputs.hpp"
-#include "io/csv.hpp"
+#include "io/csv_checks.hpp"
 #include "tmcmc/distributions.hpp"
 
-namespace experiments {
+namespace problem {
 
 namespace {
 
@@ -165,7 +164,7 @@ tmcmc::Correlation read_correlations(const std::string& path,
     }
   }
   const auto rows = table.text(first);
-  require_once(table, rows, first, "each parameter once");
+  io::require_once(table, rows, first, "each parameter once");
   const auto d = static_cast<Eigen::Index>(names.size());
   tmcmc::Correlation result{Eigen::MatrixXd::Identity(d, d), first == "parameter"
                                                                  ? tmcmc::CorrelationOf::parameters
@@ -239,7 +238,7 @@ tmcmc::Prior read_prior(const PriorFiles& files, const ParameterRules& rules) {
     table.require_columns({"parameter", "lower", "upper"});
   }
   const auto names = table.text("parameter");
-  require_once(table, names, "parameter", "each parameter once");
+  io::require_once(table, names, "parameter", "each parameter once");
   std::vector<std::optional<tmcmc::Parameter>> found(rules.names.empty() ? names.size() : rules.names.size());
   for (std::size_t row = 0; row < names.size(); ++row) {
     const std::size_t place = rules.names.empty() ? row : place_of(rules.names, names[row]);
@@ -279,4 +278,4 @@ tmcmc::Prior read_prior(const PriorFiles& files, const ParameterRules& rules) {
   }
 }
 
-}  // namespace experiments
+}  // namespace problem
