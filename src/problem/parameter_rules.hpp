@@ -8,6 +8,9 @@
 
 namespace problem {
 
+/// Of the arguments of a distribution: its square is a double.
+constexpr double largest_number = 1e100;
+
 /// What a model asks of its parameters.
 struct ParameterRules {
   /// Those that there have to be, in the order of the model; empty: any, in the order of the file.

@@ -18,7 +18,6 @@ namespace problem {
 
 namespace {
 
-constexpr double largest_number = 1e100;  // its square is a double
 const std::string of_parameters = "parameter", of_normal_scores = "normal_score";
 
 /// A parameter and where the file has it.

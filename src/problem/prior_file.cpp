@@ -19,7 +19,6 @@ namespace problem {
 namespace {
 
 constexpr double smallest_width = 1e-100;  // the squares of noise levels are doubles
-constexpr double largest_number = 1e100;   // likewise
 
 using Arguments = std::map<std::string, double, std::less<>>;
 
