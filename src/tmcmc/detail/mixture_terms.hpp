@@ -4,21 +4,12 @@
 
 #include <vector>
 
-#include "tmcmc/student_mixture.hpp"
+#include "tmcmc/detail/mixture_component.hpp"
 
 namespace tmcmc::detail {
 
 /// Rows that are worked on at a time: their intermediate results stay in the cache.
 constexpr Index mixture_rows = 256;
-
-/// One component ready for use.
-struct Component {
-  const double* mean;    ///< d
-  const double* factor;  ///< d x d, by columns
-  double log_constant;   ///< log of its weight times the density at its mean, without a wider part
-  double narrow = 0.0;   ///< the same relative to the largest constant, of the narrow part
-  double wide = 0.0;     ///< and of the wider one
-};
 
 /// Terms of a mixture at up to mixture_rows points: q(z_i) = exp(log_scale_i) sum_i, of which component k has term_ik. Entry i of
 /// component k stands at k * mixture_rows + i.
