@@ -24,8 +24,8 @@ class CMakeBuild(build_ext):
         except ImportError:
             pass
         subprocess.run(
-            ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DTMCMC_BUILD_PYTHON=ON",
-             "-DTMCMC_BUILD_EXPERIMENTS=OFF", "-DTMCMC_BUILD_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}", *options,
+            ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+             "-DTMCMC_BUILD_PYTHON=ON", "-DTMCMC_BUILD_EXPERIMENTS=OFF", "-DTMCMC_BUILD_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}", *options,
              *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
             check=True,
         )
