@@ -8,23 +8,9 @@
 
 #include "replication/calibration.hpp"
 
-#include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
-#include <cmath>
-#include <numeric>
-
 #include "inputs.hpp"
-#include "replication/verdict.hpp"
 
 using namespace experiments;
-
-namespace {
-
-/// Of a Normal distribution function at all 19 inner edges of 20 bins, with a probability of 99 % or more (Bonferroni).
-constexpr double deviations_of_band = 3.47;
-constexpr double level = 0.01;  // of the twelve tests of a sampler together (Holm)
-
-}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -68,11 +54,6 @@ int main(int argc, char** argv) {
                                  "calibrated", "replications", "unfinished", "warned"});
     auto ranks_csv = open_csv(ranks_output, {"sampler", "parameter", "place", "count", "expected", "band_low",
                                              "band_high", "edge", "ecdf_difference", "ecdf_band"});
-    const double n = static_cast<double>(options.replications);
-    const double bins = static_cast<double>(options.bins);
-    const boost::math::binomial in_bin(n, 1.0 / bins);
-    const double band_low = boost::math::quantile(in_bin, 0.005);
-    const double band_high = boost::math::quantile(boost::math::complement(in_bin, 0.005));
     report("{} simulated data sets, {} draws each, seed {}, reading {}\n", options.replications,
            options.draws, options.seed, inputs.physics.reading_name);
     report("{:<12} {:<22} {:>7} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "", "", "chi^2", "50 %", "90 %", "p(chi^2)",
@@ -83,43 +64,26 @@ int main(int argc, char** argv) {
     for (const auto& arm : arms) {
       const auto result = replication::calibrate(observations, reading, prior, arm, arm_index++, options,
                                                  [&] { progress.advance(); });
-      std::vector<replication::RankHistogram> histograms;
-      std::vector<replication::PValue> p;
-      for (const auto& ranks : result.ranks) {
-        histograms.push_back(replication::rank_histogram(ranks, options));
-        const auto& h = histograms.back();
-        for (const double value : {h.p_chi_squared, h.p_coverage_50, h.p_coverage_90}) {
-          p.push_back({value});
-        }
-      }
-      const auto adjusted = replication::holm(p);
-      const double smallest =
-          std::min_element(adjusted.begin(), adjusted.end(), [](const auto& a, const auto& b) {
-            return a.value < b.value;
-          })->value;
-      const char* verdict = smallest >= level ? "yes" : "no";
-      for (std::size_t j = 0; j < histograms.size(); ++j) {
-        const auto& h = histograms[j];
+      const auto judged = replication::judge_calibration(result, options);
+      const char* verdict = judged.is_calibrated ? "yes" : "no";
+      for (std::size_t j = 0; j < judged.histograms.size(); ++j) {
+        const auto& h = judged.histograms[j];
         report("{:<12} {:<22} {:>7.1f} {:>8.3f} {:>8.3f} {:>9.2g} {:>9.2g} {:>9.2g}\n", arm.name,
                parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90, h.p_chi_squared,
                h.p_coverage_50, h.p_coverage_90);
         csv.row(arm.name, parameter_columns[j], h.chi_squared, h.coverage_50, h.coverage_90,
                 digits(h.p_chi_squared, 4), digits(h.p_coverage_50, 4), digits(h.p_coverage_90, 4),
-                digits(smallest, 4), verdict, options.replications, result.unfinished, result.warned);
-        const double ranked = std::accumulate(h.counts.begin(), h.counts.end(), 0.0);
-        double below = 0.0;
-        for (std::size_t b = 0; ranks_csv && b < h.counts.size(); ++b) {
-          below += static_cast<double>(h.counts[b]);
-          const double edge = (static_cast<double>(b) + 1.0) / bins;
-          ranks_csv->row(arm.name, parameter_columns[j], (static_cast<double>(b) + 0.5) / bins, h.counts[b],
-                         n / bins, band_low, band_high, edge, below / ranked - edge,
-                         deviations_of_band * std::sqrt(edge * (1.0 - edge) / ranked));
+                digits(judged.smallest_p, 4), verdict, options.replications, result.unfinished,
+                result.warned);
+        for (const auto& bin : replication::rank_bins(h)) {
+          ranks_csv.row(arm.name, parameter_columns[j], bin.place, bin.count, bin.expected, bin.band_low,
+                        bin.band_high, bin.edge, bin.ecdf_difference, bin.ecdf_band);
         }
       }
       report(
           "{:<12} smallest p after Holm {:.2g}: calibrated {}; {} of {} runs ended before beta = 1, {} "
           "warned, all counted\n",
-          arm.name, smallest, verdict, result.unfinished, options.replications, result.warned);
+          arm.name, judged.smallest_p, verdict, result.unfinished, options.replications, result.warned);
     }
     io::commit_all(csv, ranks_csv);
   });

@@ -27,19 +27,6 @@ AreaRange range_of(std::vector<double> areas) {
   return {replication::sample_quantile(areas, 0.5), areas.front(), areas.back()};
 }
 
-replication::KnownPosterior known(const estimation::ExactPosterior& posterior) {
-  replication::KnownPosterior truth;
-  truth.mean.resize(friction::parameter_count);
-  truth.standard_deviation.resize(friction::parameter_count);
-  for (int p = 0; p < friction::parameter_count; ++p) {
-    const auto& marginal = posterior.marginal(static_cast<friction::Parameter>(p));
-    truth.mean[p] = marginal.mean();
-    truth.standard_deviation[p] = marginal.standard_deviation();
-  }
-  truth.log_evidence = posterior.log_evidence();
-  return truth;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,8 +57,8 @@ int main(int argc, char** argv) {
     const auto observations = read_observations(inputs.observations);
     const auto prior = prior_for(inputs, reading);
     const auto problem = interruptible(replication::problem(reading, observations, prior));
-    const auto truth =
-        known(exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior));
+    const auto truth = replication::known_posterior(
+        exact_posterior_for(inputs, friction::Likelihood(observations, reading.physics), prior));
     auto published = reading.sampler;
     published.infeasible_level = reading.infeasible_log_likelihood;
     const auto settings = replication::configurations(published);

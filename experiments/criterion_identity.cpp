@@ -6,20 +6,11 @@
 //
 // Data: Table 1 and Table 2 as printed, or the reader's own.
 
-#include <cmath>
+#include "replication/criterion_identity.hpp"
 
 #include "inputs.hpp"
 
 using namespace experiments;
-
-namespace {
-
-struct Largest {
-  double value = 0.0;
-  void add(double x) { value = std::max(value, std::fabs(x)); }
-};
-
-}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Both criteria on the same populations and the same random stream: steps, N_eff, CoV, beta.",
@@ -52,63 +43,31 @@ int main(int argc, char** argv) {
                  "coefficient_of_variation", "samples_over_one_plus_cov_squared",
                  "effective_sample_size_sample", "beta_tmcmc", "beta_tmcmc_ii"});
 
-    Largest step_difference, identity_error, path_difference, sample_effect;
-    tmcmc::Index stages = 0;
-    tmcmc::Index equal_paths = 0;
+    std::vector<replication::RunUnderBothRules> runs;
     for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(options.runs); ++r) {
-      const tmcmc::StreamKey key{options.seed, 0, 0, r};
-      struct Row {
-        double beta, step_cov, step_ess, step_sample, ess, cov, ess_sample;
-      };
-      std::vector<Row> rows;
-      const auto both_rules = [&](const tmcmc::State& state) {
-        const auto log_likelihood = tmcmc::as_span(state.log_likelihood);
-        const double remaining = 1.0 - state.beta;
-        const auto by_cov = tmcmc::choose_step(log_likelihood, remaining, arms[0].options.criterion);
-        const auto by_ess = tmcmc::choose_step(log_likelihood, remaining, arms[1].options.criterion);
-        auto with_sample = arms[0].options.criterion;
-        with_sample.deviation = tmcmc::Deviation::sample;
-        const auto by_sample = tmcmc::choose_step(log_likelihood, remaining, with_sample);
-        rows.push_back({state.beta, by_cov.step, by_ess.step, by_sample.step,
-                        tmcmc::effective_sample_size(log_likelihood, by_cov.step),
-                        tmcmc::coefficient_of_variation(log_likelihood, by_cov.step),
-                        tmcmc::effective_sample_size(log_likelihood, by_sample.step)});
-        return by_cov;
-      };
-      const auto first = tmcmc::run(problem, arms[0].options, key, {}, both_rules);
-      const auto second = tmcmc::run(problem, arms[1].options, key);
-      const double n = static_cast<double>(reading.sampler.samples);
-      Largest path;
-      rows.resize(first.stages.size());  // the last one may have chosen a step that was not taken
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Row& row = rows[i];
-        const double identity = n / (1.0 + row.cov * row.cov);
-        step_difference.add(row.step_ess / row.step_cov - 1.0);
-        identity_error.add(identity / row.ess - 1.0);
-        sample_effect.add(row.step_sample / row.step_cov - 1.0);
-        const bool both = i < second.stages.size();
-        path.add(both ? second.stages[i].beta / first.stages[i].beta - 1.0 : 1.0);
-        csv.row(r, i + 1, row.beta, row.step_cov, row.step_ess, row.step_sample, row.ess, row.cov, identity,
-                row.ess_sample, first.stages[i].beta,
-                both ? second.stages[i].beta : std::numeric_limits<double>::quiet_NaN());
+      runs.push_back(replication::run_under_both_rules(problem, arms[0].options, arms[1].options,
+                                                       {options.seed, 0, 0, r}));
+      std::size_t number = 0;
+      for (const auto& s : runs.back().stages) {
+        csv.row(r, ++number, s.beta, s.step_cov, s.step_ess, s.step_cov_sample, s.effective_sample_size,
+                s.coefficient_of_variation, s.samples_over_one_plus_cov_squared,
+                s.effective_sample_size_sample, s.beta_tmcmc, s.beta_tmcmc_ii);
       }
-      path_difference.add(path.value);
-      equal_paths += path.value < 1e-9 && first.stages.size() == second.stages.size() ? 1 : 0;
-      stages += static_cast<tmcmc::Index>(rows.size());
     }
     io::commit_all(csv);
-    report("{} stages of {} runs, N = {}\n", stages, options.runs, reading.sampler.samples);
+    const auto largest = replication::rule_differences(runs);
+    report("{} stages of {} runs, N = {}\n", largest.stages, options.runs, reading.sampler.samples);
     report("largest relative difference\n");
     report("  of the steps that CoV = {} and N_eff = {} N choose from one population: {:.1e}\n",
-           sampler.cov_target, sampler.ess_fraction, step_difference.value);
+           sampler.cov_target, sampler.ess_fraction, largest.of_steps);
     report("  of N_eff and N / (1 + CoV^2):                                     {:.1e}\n",
-           identity_error.value);
+           largest.of_identity);
     report("  of the steps with standard deviations of N-1 and of N:            {:.1e}\n",
-           sample_effect.value);
+           largest.of_sample_deviation);
     report(
         "whole runs of TMCMC and TMCMC-II on one random stream: {} of {} have the same path of beta, "
         "largest\n"
         "relative difference {:.1e}\n",
-        equal_paths, options.runs, path_difference.value);
+        largest.same_paths, options.runs, largest.of_paths);
   });
 }

@@ -6,6 +6,7 @@
 
 #include "estimation/least_squares.hpp"
 #include "inputs.hpp"
+#include "statistics/summary.hpp"
 
 using namespace experiments;
 
@@ -35,8 +36,7 @@ int main(int argc, char** argv) {
                                  "phase_fitted_deg", "fitted_force_n"});
     double continuous_from = highest;
     double smallest_limit = std::numeric_limits<double>::infinity();
-    for (long i = 0; i < points; ++i) {
-      const double r = lowest + (highest - lowest) * static_cast<double>(i) / static_cast<double>(points - 1);
+    for (const double r : statistics::evenly_spaced(lowest, highest, points)) {
       if (friction::is_singular_ratio(r)) {
         continue;
       }

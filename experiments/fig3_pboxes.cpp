@@ -6,6 +6,7 @@
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"
+#include "statistics/summary.hpp"
 
 using namespace experiments;
 
@@ -31,12 +32,9 @@ int main(int argc, char** argv) {
         const double high = box.x.back();
         report("{:<12} {:<24} {:>12.5g} {:>12.5g} {:>14.6g}\n", samples.samplers[s], samples.columns[c], low,
                high, pbox::area(box));
-        for (long i = 0; csv && i < points; ++i) {
-          const double x =
-              i == points - 1 ? high
-                              : low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1);
+        for (const double x : statistics::evenly_spaced(low, high, points)) {
           const auto bounds = pbox::evaluate(box, x);
-          csv->row(samples.samplers[s], samples.columns[c], x, bounds.lower, bounds.upper);
+          csv.row(samples.samplers[s], samples.columns[c], x, bounds.lower, bounds.upper);
         }
       }
     }

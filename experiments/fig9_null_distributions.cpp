@@ -61,26 +61,8 @@ int main(int argc, char** argv) {
       }
     }
     for (const auto& column : printed.counts) {
-      const auto of_sampler = replication::studies_of(studies, column.sampler);
-      std::map<std::int64_t, std::map<std::int64_t, double>> studies_with;  // iterations -> runs -> studies
-      for (const auto& cell : column.counts) {
-        studies_with[cell.first];
-      }
-      for (const auto& s : of_sampler) {
-        for (const auto& cell : s.iterations) {
-          studies_with[cell.first];
-        }
-      }
-      for (auto& [iterations, by_runs] : studies_with) {
-        for (const auto& s : of_sampler) {
-          const auto found = s.iterations.find(iterations);
-          by_runs[found == s.iterations.end() ? 0 : found->second] += 1.0;
-        }
-        const auto mark = column.counts.find(iterations);
-        for (const auto& [runs, number] : by_runs) {
-          counts_csv.row(column.sampler, iterations, runs, number / static_cast<double>(of_sampler.size()),
-                         mark == column.counts.end() ? 0 : mark->second);
-        }
+      for (const auto& share : replication::count_shares(studies, column)) {
+        counts_csv.row(column.sampler, share.iterations, share.runs, share.share_of_studies, share.printed);
       }
     }
     const auto report_test = [&](const std::string& what, const replication::DevianceTest& test) {

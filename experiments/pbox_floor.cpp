@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <iterator>
 
 #include "inputs.hpp"
 #include "replication/exact_runs.hpp"
@@ -16,15 +16,25 @@ using namespace experiments;
 
 namespace {
 
-void write_pboxes(io::CsvWriter& csv, const replication::Ecdfs& ecdfs, long points) {
+using Areas = std::array<double, friction::parameter_count>;
+
+/// Quantile of each parameter's areas over the studies.
+Areas quantile_of(const std::vector<Areas>& studies, double probability) {
+  Areas quantiles{};
+  for (std::size_t p = 0; p < quantiles.size(); ++p) {
+    std::vector<double> sorted;
+    std::transform(studies.begin(), studies.end(), std::back_inserter(sorted),
+                   [&](const Areas& areas) { return areas[p]; });
+    std::sort(sorted.begin(), sorted.end());
+    quantiles[p] = statistics::sample_quantile(sorted, probability);
+  }
+  return quantiles;
+}
+
+void write_pboxes(OptionalCsv& csv, const replication::Ecdfs& ecdfs, long points) {
   for (std::size_t p = 0; p < ecdfs.size(); ++p) {
     const auto box = pbox::envelope(ecdfs[p]);
-    const double low = box.x.front();
-    const double high = box.x.back();
-    for (long i = 0; i < points; ++i) {
-      const double x = i == points - 1
-                           ? high
-                           : low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1);
+    for (const double x : statistics::evenly_spaced(box.x.front(), box.x.back(), points)) {
       const auto bounds = pbox::evaluate(box, x);
       csv.row("exact draws", parameter_columns[p], x, bounds.lower, bounds.upper);
     }
@@ -32,23 +42,14 @@ void write_pboxes(io::CsvWriter& csv, const replication::Ecdfs& ecdfs, long poin
 }
 
 /// Median areas of few studies over a grid of runs and draws a run: how the floor grows with the one and falls with the other.
-void write_growth(io::CsvWriter& csv, const estimation::ExactPosterior& posterior, std::uint64_t seed) {
-  constexpr std::uint32_t few = 3;
+void write_growth(OptionalCsv& csv, const estimation::ExactPosterior& posterior, std::uint64_t seed) {
   for (const long runs : {10, 50, 200}) {
     for (const long samples : {1000, 4000, 16000}) {
-      std::array<double, friction::parameter_count> medians{};
-      std::array<std::vector<double>, friction::parameter_count> areas;
-      for (std::uint32_t study = 0; study < few; ++study) {
-        const auto ecdfs = replication::exact_runs(posterior, seed, study, runs, samples);
-        for (std::size_t p = 0; p < ecdfs.size(); ++p) {
-          areas[p].push_back(pbox::area_metric(ecdfs[p]));
-        }
+      std::vector<Areas> areas;
+      for (const std::uint32_t study : {0, 1, 2}) {
+        areas.push_back(replication::exact_areas(posterior, seed, study, runs, samples));
       }
-      for (std::size_t p = 0; p < areas.size(); ++p) {
-        std::sort(areas[p].begin(), areas[p].end());
-        medians[p] = areas[p][few / 2];
-      }
-      csv.row(runs, samples, medians);
+      csv.row(runs, samples, quantile_of(areas, 0.5));
     }
   }
 }
@@ -90,46 +91,36 @@ int main(int argc, char** argv) {
     auto pbox_csv = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper"});
     columns.front() = "probability";
     auto summary_csv = open_csv(summary_output, columns);
-    std::vector<std::vector<double>> areas(parameter_columns.size(),
-                                           std::vector<double>(static_cast<std::size_t>(studies)));
-    io::Progress progress("pbox_floor", static_cast<std::size_t>(studies), !report.quiet());
+    std::vector<Areas> areas(static_cast<std::size_t>(studies));
+    io::Progress progress("pbox_floor", areas.size(), !report.quiet());
     tmcmc::for_each_block(studies, 1, options.threads, [&](auto, auto begin, auto) {
-      const auto ecdfs = replication::exact_runs(posterior, options.seed, static_cast<std::uint32_t>(begin),
-                                                 run_options.runs, samples);
-      for (std::size_t p = 0; p < ecdfs.size(); ++p) {
-        areas[p][static_cast<std::size_t>(begin)] = pbox::area_metric(ecdfs[p]);
-      }
+      areas[static_cast<std::size_t>(begin)] = replication::exact_areas(
+          posterior, options.seed, static_cast<std::uint32_t>(begin), run_options.runs, samples);
       progress.advance();
     });
     report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n", run_options.runs,
            samples, studies, options.seed, inputs.physics.reading_name);
     report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
-    const std::array<double, 3> probabilities = {0.5, 0.025, 0.975};
-    std::array<std::array<double, friction::parameter_count>, 3> quantiles{};
+    const Areas median = quantile_of(areas, 0.5), low = quantile_of(areas, 0.025),
+                high = quantile_of(areas, 0.975);
     for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
-      auto sorted = areas[p];
-      std::sort(sorted.begin(), sorted.end());
-      for (std::size_t q = 0; q < quantiles.size(); ++q) {
-        quantiles[q][p] = statistics::sample_quantile(sorted, probabilities[q]);
-      }
-      report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], quantiles[0][p], quantiles[1][p],
-             quantiles[2][p]);
+      report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], median[p], low[p], high[p]);
     }
-    for (std::size_t q = 0; summary_csv && q < quantiles.size(); ++q) {
-      summary_csv->row(probabilities[q], quantiles[q]);
-    }
-    for (std::size_t k = 0; csv && k < areas[0].size(); ++k) {
-      csv->row(k, areas[0][k], areas[1][k], areas[2][k], areas[3][k]);
+    summary_csv.row(0.5, median);
+    summary_csv.row(0.025, low);
+    summary_csv.row(0.975, high);
+    for (std::size_t k = 0; k < areas.size(); ++k) {
+      csv.row(k, areas[k]);
     }
     if (pbox_csv) {
-      write_pboxes(*pbox_csv, replication::exact_runs(posterior, options.seed, 0, run_options.runs, samples),
+      write_pboxes(pbox_csv, replication::exact_runs(posterior, options.seed, 0, run_options.runs, samples),
                    points);
     }
     std::vector<std::string> of_growth = {"runs", "samples"};
     of_growth.insert(of_growth.end(), parameter_columns.begin(), parameter_columns.end());
     auto growth_csv = open_csv(growth_output, of_growth);
     if (growth_csv) {
-      write_growth(*growth_csv, posterior, options.seed);
+      write_growth(growth_csv, posterior, options.seed);
     }
     io::commit_all(csv, pbox_csv, summary_csv, growth_csv);
   });

@@ -7,6 +7,7 @@
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "replication/predictive_checks.hpp"
+#include "statistics/summary.hpp"
 
 using namespace experiments;
 
@@ -92,20 +93,19 @@ int main(int argc, char** argv) {
     const auto posterior = posterior_of(measured);
     const auto draws = replication::predictive_draws(posterior, drawing, 0);
 
-    const auto on_grid = [&](const estimation::Interval& range, const auto& write) {
-      for (long i = 0; i < points; ++i) {
-        write(range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1));
-      }
+    const auto on_grid = [&](const estimation::Interval& range) {
+      return statistics::evenly_spaced(range.lower, range.upper, points);
     };
-    on_grid(replication::curve_range(measured.measured_ratio), [&](double r) {
+    for (const double r : on_grid(replication::curve_range(measured.measured_ratio))) {
       if (!friction::is_singular_ratio(r)) {
         const auto c = friction::response_constants(r, reading.physics);
         csv.row(r, cells(estimation::phase_band(draws, r, reading.physics)),
                 digits(friction::phase_deg(c, c.limit_force_ratio)));
       }
-    });
-    on_grid(replication::curve_range(measured.driving_frequency_hz),
-            [&](double f) { frequencies.row(f, cells(estimation::ratio_band(draws, f))); });
+    }
+    for (const double f : on_grid(replication::curve_range(measured.driving_frequency_hz))) {
+      frequencies.row(f, cells(estimation::ratio_band(draws, f)));
+    }
     const auto rows = replication::predict_rows(measured, draws, posterior_of, reading.physics, drawing);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto write = [&](const char* quantity, double x, const replication::MeasurementPrediction& p) {

@@ -4,9 +4,9 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
+#include <iterator>
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"
@@ -26,11 +26,13 @@ std::vector<pbox::Ecdf> ecdfs_of(const std::vector<replication::Run>& runs, std:
   return ecdfs;
 }
 
-double mean_of(const std::vector<replication::Run>& runs,
-               const std::function<double(const replication::Run&)>& f) {
-  return std::accumulate(runs.begin(), runs.end(), 0.0,
-                         [&](double sum, const auto& run) { return sum + f(run); }) /
-         static_cast<double>(runs.size());
+/// Of a number that each run gives; without an exact value its bias means nothing.
+statistics::EstimateError error_of(const std::vector<replication::Run>& runs,
+                                   const std::function<double(const replication::Run&)>& number,
+                                   double exact = 0.0) {
+  std::vector<double> estimates;
+  std::transform(runs.begin(), runs.end(), std::back_inserter(estimates), number);
+  return statistics::error_of(estimates, exact);
 }
 
 }  // namespace
@@ -69,7 +71,6 @@ int main(int argc, char** argv) {
     report("{:<12} {:<12} {:>26} {:>9} {:>7} {:>7} {:>12} {:>12}\n", "noise levels", "sampler",
            "log-evidence (exact, mean)", "rms error", "stages", "cost", "area F_mu", "area omega_n");
     const auto options = run_options.study_options();
-    const auto root = std::sqrt(static_cast<double>(options.runs));
     std::uint32_t number = 0;
     const auto box = prior_for(inputs, reading);
     static_cast<void>(bounds_of(box, "prior_sensitivity"));
@@ -86,34 +87,28 @@ int main(int argc, char** argv) {
         const auto runs = replication::run_arm({likelihood, prior}, arm, number++, options);
         progress.advance();
         const auto areas = replication::pbox_areas(runs, options.threads);
-        const auto log_evidence = [](const auto& run) { return run.result.evidence.log_evidence; };
         const double truth = exact.log_evidence();
-        const double mean = mean_of(runs, log_evidence);
-        const double rms =
-            std::sqrt(mean_of(runs, [&](const auto& run) { return std::pow(log_evidence(run) - truth, 2); }));
-        const double sd =
-            std::sqrt(mean_of(runs, [&](const auto& run) { return std::pow(log_evidence(run) - mean, 2); }));
+        const auto evidence = error_of(
+            runs, [](const auto& run) { return run.result.evidence.log_evidence; }, truth);
         const double stages =
-            mean_of(runs, [](const auto& run) { return static_cast<double>(run.iterations()); });
-        const double cost =
-            mean_of(runs, [](const auto& run) { return static_cast<double>(run.result.final.evaluations); });
+            error_of(runs, [](const auto& run) { return static_cast<double>(run.iterations()); }).mean;
+        const double cost = error_of(runs, [](const auto& run) {
+                              return static_cast<double>(run.result.final.evaluations);
+                            }).mean;
         report("{:<12} {:<12} {:>13.3f} {:>12.3f} {:>9.3f} {:>7.2f} {:>7.0f} {:>12.5f} {:>12.5f}\n", name,
-               arm.name, truth, mean, rms, stages, cost, areas[0], areas[1]);
+               arm.name, truth, evidence.mean, evidence.root_mean_square, stages, cost, areas[0], areas[1]);
         for (std::size_t p = 0; p < floors.size(); ++p) {
           const auto j = static_cast<Eigen::Index>(p);
           const auto& marginal = exact.marginal(static_cast<friction::Parameter>(p));
-          const double centre = mean_of(runs, [j](const auto& run) { return run.mean[j]; });
-          const double spread =
-              std::sqrt(mean_of(runs, [&](const auto& run) { return std::pow(run.mean[j] - centre, 2); }));
+          const auto mean = error_of(runs, [j](const auto& run) { return run.mean[j]; });
           csv.row(name, arm.name, parameter_columns[p], digits(marginal.mean()),
-                  digits(marginal.standard_deviation()), centre, spread / root, areas[j], floors[p],
-                  digits(truth), mean, sd / root, rms, stages, cost);
+                  digits(marginal.standard_deviation()), mean.mean, mean.standard_error, areas[j], floors[p],
+                  digits(truth), evidence.mean, evidence.standard_error, evidence.root_mean_square, stages,
+                  cost);
           if (boxes) {
             const auto envelope = pbox::envelope(ecdfs_of(runs, p));
-            const double low = marginal.quantile(0.0005);
-            const double high = marginal.quantile(0.9995);
-            for (long i = 0; i < points; ++i) {
-              const double x = low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1);
+            for (const double x :
+                 statistics::evenly_spaced(marginal.quantile(0.0005), marginal.quantile(0.9995), points)) {
               const auto bounds = pbox::evaluate(envelope, x);
               boxes->row(name, arm.name, parameter_columns[p], x, marginal.cdf(x), bounds.lower,
                          bounds.upper);

@@ -41,6 +41,19 @@ std::vector<Eigen::VectorXd> paper_sized_areas(const std::vector<Run>& runs, std
   return areas;
 }
 
+KnownPosterior known_posterior(const estimation::ExactPosterior& exact) {
+  KnownPosterior truth;
+  truth.mean.resize(friction::parameter_count);
+  truth.standard_deviation.resize(friction::parameter_count);
+  for (int p = 0; p < friction::parameter_count; ++p) {
+    const auto& marginal = exact.marginal(static_cast<friction::Parameter>(p));
+    truth.mean[p] = marginal.mean();
+    truth.standard_deviation[p] = marginal.standard_deviation();
+  }
+  truth.log_evidence = exact.log_evidence();
+  return truth;
+}
+
 Accuracy accuracy(const std::vector<Run>& runs, const KnownPosterior& truth) {
   const Eigen::Index d = truth.mean.size();
   if (runs.size() < 2 ||

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "estimation/exact_posterior.hpp"
 #include "replication/study.hpp"
 
 namespace replication {
@@ -14,6 +15,9 @@ struct KnownPosterior {
   Eigen::VectorXd standard_deviation;  ///< one entry per parameter, positive
   double log_evidence = 0.0;           ///< log P(D)
 };
+
+/// What quadrature knows.
+[[nodiscard]] KnownPosterior known_posterior(const estimation::ExactPosterior& exact);
 
 /// Errors over the runs. Those of means are in posterior standard deviations.
 struct Accuracy {

@@ -4,10 +4,12 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "errors/invalid_value.hpp"
 #include "friction/angle.hpp"
+#include "statistics/p_value.hpp"
 #include "tmcmc/parallel.hpp"
 #include "tmcmc/weighted_samples.hpp"
 
@@ -177,6 +179,47 @@ RankHistogram rank_histogram(const std::vector<tmcmc::Index>& ranks, const Calib
   histogram.p_coverage_90 =
       two_sided_binomial(inside_90, total, covered_values(options, 0.05) / values_total);
   return histogram;
+}
+
+std::vector<RankBin> rank_bins(const RankHistogram& histogram) {
+  // Of a normal distribution function at all 19 inner edges of 20 bins together (Bonferroni).
+  constexpr double deviations_of_band = 3.47;
+  const double n = std::accumulate(histogram.counts.begin(), histogram.counts.end(), 0.0);
+  const double bins = static_cast<double>(histogram.counts.size());
+  const boost::math::binomial in_bin(n, 1.0 / bins);
+  std::vector<RankBin> all;
+  double below = 0.0;
+  for (const tmcmc::Index count : histogram.counts) {
+    const double edge = (static_cast<double>(all.size()) + 1.0) / bins;
+    below += static_cast<double>(count);
+    all.push_back({.place = (static_cast<double>(all.size()) + 0.5) / bins,
+                   .count = count,
+                   .expected = n / bins,
+                   .band_low = boost::math::quantile(in_bin, 0.005),
+                   .band_high = boost::math::quantile(boost::math::complement(in_bin, 0.005)),
+                   .edge = edge,
+                   .ecdf_difference = below / n - edge,
+                   .ecdf_band = deviations_of_band * std::sqrt(edge * (1.0 - edge) / n)});
+  }
+  return all;
+}
+
+CalibrationVerdict judge_calibration(const CalibrationResult& result, const CalibrationOptions& options) {
+  constexpr double level = 0.01;  // of all tests together
+  CalibrationVerdict verdict;
+  std::vector<statistics::PValue> p;
+  for (const auto& ranks : result.ranks) {
+    verdict.histograms.push_back(rank_histogram(ranks, options));
+    const auto& h = verdict.histograms.back();
+    for (const double value : {h.p_chi_squared, h.p_coverage_50, h.p_coverage_90}) {
+      p.push_back({value});
+    }
+  }
+  for (const auto& adjusted : statistics::holm(p)) {
+    verdict.smallest_p = std::min(verdict.smallest_p, adjusted.value);
+  }
+  verdict.is_calibrated = verdict.smallest_p >= level;
+  return verdict;
 }
 
 }  // namespace replication

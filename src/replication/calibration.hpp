@@ -67,4 +67,29 @@ struct RankHistogram {
 [[nodiscard]] RankHistogram rank_histogram(const std::vector<tmcmc::Index>& ranks,
                                            const CalibrationOptions& options);
 
+/// What a figure shows of one bin of a rank histogram, and of the ranks' distribution function at its upper edge.
+struct RankBin {
+  double place = 0.0;            ///< middle of the bin, in (0, 1)
+  tmcmc::Index count = 0;        ///< ranks in it
+  double expected = 0.0;         ///< of uniform ranks
+  double band_low = 0.0;         ///< 0.5 % quantile of the binomial distribution
+  double band_high = 0.0;        ///< 99.5 % quantile
+  double edge = 0.0;             ///< upper end of the bin, in (0, 1]
+  double ecdf_difference = 0.0;  ///< share of the ranks below the edge, less the edge
+  double ecdf_band =
+      0.0;  ///< the differences of uniform ranks stay within it at all edges of 20 bins, with a probability of 99 %
+};
+/// The bins of a histogram, from low ranks to high ones.
+[[nodiscard]] std::vector<RankBin> rank_bins(const RankHistogram& histogram);
+
+/// What the ranks of all parameters say of a sampler.
+struct CalibrationVerdict {
+  std::vector<RankHistogram> histograms;  ///< one a parameter
+  double smallest_p = 1.0;  ///< of the three tests of each parameter, adjusted for their number (Holm 1979)
+  bool is_calibrated = false;  ///< smallest_p is 0.01 or more
+};
+/// \throws errors::InvalidValue as rank_histogram.
+[[nodiscard]] CalibrationVerdict judge_calibration(const CalibrationResult& result,
+                                                   const CalibrationOptions& options);
+
 }  // namespace replication

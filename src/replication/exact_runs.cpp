@@ -31,6 +31,16 @@ Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed
   return ecdfs;
 }
 
+std::array<double, friction::parameter_count> exact_areas(const estimation::ExactPosterior& posterior,
+                                                          std::uint64_t seed, std::uint32_t study, long runs,
+                                                          long samples) {
+  const Ecdfs ecdfs = exact_runs(posterior, seed, study, runs, samples);
+  std::array<double, friction::parameter_count> areas{};
+  std::transform(ecdfs.begin(), ecdfs.end(), areas.begin(),
+                 [](const auto& of_parameter) { return pbox::area_metric(of_parameter); });
+  return areas;
+}
+
 double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed, std::uint32_t study,
                   long runs, long samples) {
   std::vector<pbox::Ecdf> ecdfs;

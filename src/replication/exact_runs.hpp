@@ -19,6 +19,11 @@ using Ecdfs = std::array<std::vector<pbox::Ecdf>, friction::parameter_count>;
 [[nodiscard]] Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed,
                                std::uint32_t study, long runs, long samples);
 
+/// Areas (Eq. 25) of the p-boxes of exact_runs, one entry a parameter.
+[[nodiscard]] std::array<double, friction::parameter_count> exact_areas(
+    const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study, long runs,
+    long samples);
+
 /// Area (Eq. 25) of the p-box of `runs` sets of independent exact draws of one parameter.
 [[nodiscard]] double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed,
                                 std::uint32_t study, long runs, long samples);

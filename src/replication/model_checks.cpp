@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "friction/time_integration.hpp"
+#include "statistics/summary.hpp"
 
 namespace replication {
 
@@ -27,8 +28,7 @@ PhaseCheck check_phase(double frequency_ratio, double driving_force_n, long poin
   check.frequency_ratio = frequency_ratio;
   check.limit_force_ratio = models.exact.limit_force_ratio;
   check.limit_force_ratio_grid = models.published.limit_force_ratio;
-  for (long i = 0; i < points; ++i) {
-    const double phi = static_cast<double>(i) / static_cast<double>(points - 1);
+  for (const double phi : statistics::evenly_spaced(0.0, 1.0, points)) {
     const auto integrated = friction::integrate_steady_response(frequency_ratio, phi);
     const double exact = friction::phase_deg(models.exact, phi);
     const double published = friction::phase_deg(models.published, phi);
@@ -58,8 +58,7 @@ PhaseCheck check_phase(double frequency_ratio, double driving_force_n, long poin
 std::vector<DiscretisationError> discretisation_errors(double lowest, double highest, long points,
                                                        double friction_force_n, double driving_force_n) {
   std::vector<DiscretisationError> errors;
-  for (long i = 0; i < points; ++i) {
-    const double r = lowest + (highest - lowest) * static_cast<double>(i) / static_cast<double>(points - 1);
+  for (const double r : statistics::evenly_spaced(lowest, highest, points)) {
     if (friction::is_singular_ratio(r)) {
       continue;
     }

@@ -74,8 +74,7 @@ std::vector<MarginalPoint> marginal_points(const estimation::ExactPosterior& pos
   for (std::size_t p = 0; p < friction::parameter_count; ++p) {
     const auto& exact = marginal(posterior, p);
     const auto range = drawn_range(exact);
-    for (long i = 0; i < points; ++i) {
-      const double x = range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1);
+    for (const double x : statistics::evenly_spaced(range.lower, range.upper, points)) {
       all.push_back({p, x, exact.density(x), exact.cdf(x), laplace.marginal_density(p, x)});
     }
   }
@@ -90,9 +89,7 @@ std::vector<PboxPoint> pbox_points(const GroupedColumns& samples, const estimati
       const auto box = pbox::envelope(samples.ecdfs(s, p));
       const auto& exact = marginal(posterior, p);
       const auto range = drawn_range(exact);
-      for (long i = 0; i < points; ++i) {
-        const double x =
-            range.lower + range.width() * static_cast<double>(i) / static_cast<double>(points - 1);
+      for (const double x : statistics::evenly_spaced(range.lower, range.upper, points)) {
         const auto bounds = pbox::evaluate(box, x);
         all.push_back({samples.samplers[s], p, x, bounds.lower, bounds.upper, exact.cdf(x)});
       }

@@ -2,6 +2,7 @@
 /// The printed Tables 3 and 4 against replicated studies.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,18 @@ struct JointTests {
 /// \throws errors::InvalidValue if there is none.
 [[nodiscard]] std::vector<StudySummary> studies_of(const std::vector<StudySummary>& studies,
                                                    const std::string& sampler);
+
+/// How many of a sampler's studies have so many runs of so many iterations.
+struct CountShare {
+  std::int64_t iterations = 0;    ///< that are printed or that a study has
+  std::int64_t runs = 0;          ///< of a study
+  double share_of_studies = 0.0;  ///< with just so many runs
+  std::int64_t printed = 0;       ///< runs that the printed column has
+};
+/// Ascending by iterations, then runs; no row for a share of 0.
+/// \throws as studies_of.
+[[nodiscard]] std::vector<CountShare> count_shares(const std::vector<StudySummary>& studies,
+                                                   const PrintedCounts& printed);
 
 /// The studies that are the null distribution of a sampler's numbers.
 /// \throws as studies_of.

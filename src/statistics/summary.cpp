@@ -75,6 +75,18 @@ EstimateError error_of(std::span<const double> estimates, double exact) {
           std::sqrt(squares / n)};
 }
 
+std::vector<double> evenly_spaced(double low, double high, long points) {
+  if (points < 2) {
+    throw errors::InvalidValue("points", points, "at least 2");
+  }
+  std::vector<double> values;
+  for (long i = 0; i < points; ++i) {
+    values.push_back(low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1));
+  }
+  values.back() = high;
+  return values;
+}
+
 std::vector<long> histogram(std::span<const double> values, double low, double high, long bins) {
   const std::vector<double> ones(values.size(), 1.0);
   const auto sums = histogram(values, ones, low, high, bins);

@@ -60,6 +60,11 @@ struct EstimateError {
 /// \throws errors::InvalidValue if there is no estimate.
 [[nodiscard]] EstimateError error_of(std::span<const double> estimates, double exact);
 
+/// So many values from `low` to `high`, both included, at equal distances.
+/// \param points  at least 2
+/// \throws errors::InvalidValue for fewer points.
+[[nodiscard]] std::vector<double> evenly_spaced(double low, double high, long points);
+
 /// Number of values in each of equal bins from `low` to `high`, the lower end of a bin included;
 /// values outside count in none.
 /// \throws errors::InvalidValue unless low < high and there is a bin.

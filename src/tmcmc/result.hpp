@@ -139,7 +139,8 @@ enum class WarningKind {
   heavy_weights,
   /// Independent draws: beta was chosen by fewer than 40 effective draws, or, where there are
   /// several separate modes, by fewer than 25 for each of them and one more; another mode may have
-  /// been lost. Or the searches have made fewer than 2400 draws, which can miss a small part.
+  /// been lost. Where a search has ended below beta = 1 there are taken to be two at least. Or the
+  /// searches have made fewer than 2400 draws, which can miss a small part.
   few_draws_a_mode
 };
 constexpr std::array<std::string_view, 13> enumerator_names(std::type_identity<WarningKind>) {

@@ -29,7 +29,7 @@ expect_error() {
   rm -f ../before.$$ ../after.$$ ../out.$$ ../err.$$
 }
 
-executables() { (cd "$source" && ls experiments/*.cpp examples/own_model.cpp) | sed "s|.*/||; s|\.cpp$||"; }
+executables() { (cd "$source" && ls experiments/*.cpp examples/own_model.cpp bench/scaling.cpp) | sed "s|.*/||; s|\.cpp$||"; }
 
 # Inputs, made by small runs, with which every executable finds what it reads by default.
 small="--runs 3 --samples 200"

@@ -1,4 +1,5 @@
 // Problems with known evidence, and what is measured on them.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -66,6 +67,17 @@ TEST_CASE("A point belongs to the mode that it is nearest to") {
   CHECK(two.mode_of(Eigen::RowVectorXd::Constant(4, 3.0)) == 0);
   CHECK(two.mode_of(Eigen::RowVectorXd::Constant(4, -3.0)) == 1);
   CHECK(two.mode_masses == std::vector<double>{0.75, 0.25});
+}
+
+TEST_CASE("A mode that both searches have taken for a part of another comes with a warning") {
+  // In this run of few draws each search fits one component to two modes in ten coordinates, and loses the smaller one on the way.
+  const auto problems = closed_form_problems();
+  const auto& two = named(problems, "two modes, 10-D");
+  const auto run = tmcmc::run(two.problem, tmcmc::recommended_options(10000), {.seed = 5, .run = 177});
+  CHECK(run.evidence.log_evidence < two.log_evidence - 5.0 * run.evidence.standard_error);
+  CHECK(std::max(run.measurement->search_beta[0], run.measurement->search_beta[1]) < 1.0);
+  REQUIRE(run.diagnostics.warnings.size() == 1);
+  CHECK(run.diagnostics.warnings[0].kind == tmcmc::WarningKind::few_draws_a_mode);
 }
 
 TEST_CASE("A score counts errors, warnings, modes and runs that did not finish") {

@@ -2,9 +2,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "data/columns.hpp"
+#include "errors/invalid_value.hpp"
 #include "replication/comparison.hpp"
 #include "replication/reading_effects.hpp"
 
@@ -68,6 +70,30 @@ TEST_CASE("cells have their places among the studies, and all together their tes
   CHECK_THAT(
       text, Contains("| Table 3 | A, force | 0.15 |") && Contains("| Table 4 | 10 iterations | A 42 |") &&
                 Contains("| jointly | A: areas and iterations |") && Contains("| **all printed numbers** |"));
+}
+
+TEST_CASE("shares of studies by their runs of so many iterations add up to 1", "[comparison]") {
+  std::vector<StudySummary> three(3);
+  for (auto& study : three) {
+    study.sampler = "A";
+  }
+  three[0].iterations = {{9, 4}, {10, 46}};
+  three[1].iterations = {{10, 46}, {11, 4}};
+  three[2].iterations = {{10, 50}};
+  const auto shares = count_shares(three, {"A", {{10, 42}, {12, 8}}});
+  std::map<std::int64_t, double> sums;
+  for (const auto& share : shares) {
+    sums[share.iterations] += share.share_of_studies;
+  }
+  CHECK(sums.size() == 4);
+  for (const auto& [iterations, sum] : sums) {
+    CHECK(sum == Approx(1.0));
+  }
+  REQUIRE(shares.size() == 7);
+  CHECK((shares[2].iterations == 10 && shares[2].runs == 46 && shares[2].printed == 42));
+  CHECK(shares[2].share_of_studies == Approx(2.0 / 3.0));
+  CHECK((shares[6].iterations == 12 && shares[6].runs == 0 && shares[6].printed == 8));
+  CHECK_THROWS_AS(count_shares(three, {"B", {}}), errors::InvalidValue);
 }
 
 TEST_CASE("each reading is named once and changes what it says", "[comparison]") {

@@ -48,6 +48,13 @@ TEST_CASE("the error of estimates, by hand", "[summary]") {
   CHECK_THROWS_AS(error_of({}, 0.0), errors::InvalidValue);
 }
 
+TEST_CASE("evenly spaced values have both ends, and the upper one exactly", "[summary]") {
+  CHECK(evenly_spaced(-1.0, 1.0, 5) == std::vector<double>{-1.0, -0.5, 0.0, 0.5, 1.0});
+  CHECK(evenly_spaced(0.1, 0.7, 4).back() == 0.7);
+  CHECK(evenly_spaced(2.0, 3.0, 2) == std::vector<double>{2.0, 3.0});
+  CHECK_THROWS_AS(evenly_spaced(0.0, 1.0, 1), errors::InvalidValue);
+}
+
 TEST_CASE("a histogram counts each value in the bin whose lower end it has reached", "[summary]") {
   const std::vector<double> values{-0.1, 0.0, 0.24, 0.25, 0.5, 0.99, 1.0, 7.0};
   CHECK(histogram(values, 0.0, 1.0, 4) == std::vector<long>{2, 1, 1, 1});

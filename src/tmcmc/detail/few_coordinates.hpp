@@ -3,6 +3,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "portable_math/elementary.hpp"
 #include "tmcmc/types.hpp"
@@ -10,35 +11,20 @@
 namespace tmcmc::detail {
 
 /// For so few coordinates there are versions in which those of a point stay in registers.
-constexpr Index most_of_few = 6;
+constexpr int most_of_few = 6;
+
+/// Calls use(std::integral_constant<int, d>) if d is one of D + 1.
+template <class Use, int... D>
+PORTABLE_MATH_INLINE bool for_one_of(Index d, const Use& use, std::integer_sequence<int, D...>) {
+  return ((d == D + 1 && (use(std::integral_constant<int, D + 1>{}), true)) || ...);
+}
 
 /// use(std::integral_constant<int, d>).
 /// \param use  to be inlined, so that it is compiled for the instruction set of the caller
 /// \return  false, and nothing is done, for more than most_of_few coordinates
 template <class Use>
 PORTABLE_MATH_INLINE bool for_few_coordinates(Index d, const Use& use) {
-  switch (d) {
-    case 1:
-      use(std::integral_constant<int, 1>{});
-      return true;
-    case 2:
-      use(std::integral_constant<int, 2>{});
-      return true;
-    case 3:
-      use(std::integral_constant<int, 3>{});
-      return true;
-    case 4:
-      use(std::integral_constant<int, 4>{});
-      return true;
-    case 5:
-      use(std::integral_constant<int, 5>{});
-      return true;
-    case 6:
-      use(std::integral_constant<int, 6>{});
-      return true;
-    default:
-      return false;
-  }
+  return for_one_of(d, use, std::make_integer_sequence<int, most_of_few>{});
 }
 
 }  // namespace tmcmc::detail

@@ -286,6 +286,9 @@ MeasuredPosterior measure_posterior(const Problem& problem, const Options& optio
         missed_mass(searches[k], draws, measured.weights, estimate.log_mean, threads, problem.look);
   }
   measured.modes = std::max(measured.modes, detail::separate_modes(measured.reference.fitted));
+  if (std::min(measured.search_beta[0], measured.search_beta[1]) < 1.0) {
+    measured.modes = std::max<Index>(measured.modes, 2);
+  }
   measured.draws_a_mode = target / static_cast<double>(measured.modes > 1 ? measured.modes + 1 : 1);
   measured.warnings = warnings_of(measured);
   return measured;

@@ -25,7 +25,8 @@ struct MeasuredPosterior {
   double effective_sample_size = 0.0;
   /// k-hat of the largest weights, see pareto_shape().
   double pareto_shape = 0.0;
-  /// Separate modes that the searches have seen or the fit has.
+  /// Separate modes that the searches have seen or the fit has; at least 2 where a search has ended
+  /// below beta = 1, whose fits may have taken two modes for one.
   Index modes = 1;
   /// Effective draws that chose beta; where there are several modes, for each of them and one more.
   double draws_a_mode = 0.0;
