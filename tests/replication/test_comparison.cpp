@@ -73,9 +73,10 @@ TEST_CASE("cells have their places among the studies, and all together their tes
 }
 
 TEST_CASE("shares of studies by their runs of so many iterations add up to 1", "[comparison]") {
+  const std::string sampler = "A";
   std::vector<StudySummary> three(3);
   for (auto& study : three) {
-    study.sampler = "A";
+    study.sampler = sampler;
   }
   three[0].iterations = {{9, 4}, {10, 46}};
   three[1].iterations = {{10, 46}, {11, 4}};
