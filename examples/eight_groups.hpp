@@ -20,7 +20,7 @@ namespace eight_groups {
 constexpr std::size_t groups = 8;
 constexpr std::array<double, groups> measured = {28, 8, -3, 7, -1, 1, 18, 12};  ///< y_j, points of a test
 constexpr std::array<double, groups> errors = {15, 10, 16, 11, 9, 11, 10, 18};  ///< s_j
-constexpr double centre_sd = 20.0;                                              ///< of mu
+constexpr double centre_sd = 20.0;                                              ///< of the prior of mu
 constexpr double spread_sd = 10.0;  ///< of the half-normal prior of tau
 
 /// log N(x; mean, sd^2).
@@ -29,7 +29,7 @@ inline double log_normal_density(double x, double mean, double sd) {
   return -0.5 * z * z - std::log(sd) - 0.91893853320467274178;
 }
 
-/// The prior. Without a known tau there is one parameter more, log(tau), whose density has the Jacobian tau.
+/// The prior. If tau is unknown there is one more parameter, log(tau), whose density has the Jacobian tau.
 inline tmcmc::Prior prior(std::optional<double> known_tau) {
   const Eigen::Index first = known_tau ? 1 : 2;  // of the thetas
   const auto spread = tmcmc::Marginal::half_normal(spread_sd);
@@ -68,7 +68,7 @@ inline tmcmc::Prior prior(std::optional<double> known_tau) {
   return tmcmc::Prior(own);
 }
 
-/// The measurements, which see the thetas alone: the last eight columns.
+/// Log-likelihood of the measurements, which depends only on the thetas: the last eight columns.
 inline void log_likelihood(const Eigen::Ref<const Eigen::MatrixXd>& points,
                            Eigen::Ref<Eigen::VectorXd> values) {
   values.setZero();
@@ -80,7 +80,7 @@ inline void log_likelihood(const Eigen::Ref<const Eigen::MatrixXd>& points,
   }
 }
 
-/// What is known in closed form.
+/// Evidence and moments known in closed form.
 struct Exact {
   double log_evidence = 0.0;
   double mu_mean = 0.0;

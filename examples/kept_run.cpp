@@ -17,7 +17,7 @@ tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikel
   if (checkpoint.empty()) {
     return tmcmc::run(problem, run.options, run.key, observer);
   }
-  // A checkpoint that is a device keeps nothing.
+  // Nothing is kept if the checkpoint is a device.
   const auto is_kept = [&] {
     std::error_code error;
     return std::filesystem::is_regular_file(checkpoint, error);

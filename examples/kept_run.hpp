@@ -1,5 +1,5 @@
 /// \file
-/// A run whose stages are kept while it goes.
+/// A run that stores its stages while it proceeds.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 namespace examples {
 
 /// storage::run_with_checkpoint, or tmcmc::run if the path is empty.
-/// \throws as these, and io::Interrupted; what ends the run says in its message which stage is
-///         kept, and where.
-/// \param observer  sees each stage
+/// \throws as these, and io::Interrupted; the message of whatever ends the run says which stage is kept, and
+///         where.
+/// \param observer  called with each stage
 [[nodiscard]] tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
                                      const std::string& checkpoint, const tmcmc::Observer& observer);
 

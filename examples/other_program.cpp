@@ -56,7 +56,8 @@ std::vector<double> standard_deviations(const ProblemOptions& options, const io:
   return values;
 }
 
-/// What the outputs of another program are compared with; nothing if they are log-likelihoods.
+/// The data with which the outputs of another program are compared; nothing if the program returns
+/// log-likelihoods.
 std::optional<models::GaussianData> data_of(const ProblemOptions& options,
                                             const std::vector<std::string>& names) {
   const bool is_asked = options.is_given("--observation") || options.is_given("--standard-deviation") ||
@@ -115,8 +116,8 @@ void set_functions(Model& model, External external, const std::optional<models::
   };
 }
 
-/// Sets functions and description of the model.
-/// \param names  of the parameters that it sees
+/// Sets the functions and the description of the model.
+/// \param names  names of the parameters that the program sees
 void set_program(Model& model, const ProblemOptions& options, const std::vector<std::string>& names,
                  const std::optional<models::GaussianData>& data, const Listeners& listeners) {
   const std::size_t outputs = data ? data->observations.size() : 0;

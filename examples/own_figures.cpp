@@ -12,7 +12,7 @@ namespace examples {
 
 namespace {
 
-/// Samples of all runs, each of which counts the same.
+/// Samples of all runs, each of which has the same weight.
 experiments::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior) {
   experiments::CornerSamples samples;
   samples.names = prior.names();
@@ -29,7 +29,8 @@ experiments::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const 
   return samples;
 }
 
-/// Rounds of a search, of which a run of independent draws consists, have neither acceptance rate nor evidence.
+/// Writes the stages. The rounds of a search, of which a run of independent draws consists, have neither
+/// acceptance rate nor evidence.
 void write_stages(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -43,7 +44,7 @@ void write_stages(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result
   }
 }
 
-/// predict(), whose failures say what is in place.
+/// Calls predict(); if it fails, the message says which results are in place.
 Prediction predict_last(const std::vector<tmcmc::Result>& runs, const Model& model, long draws,
                         const std::function<void(tmcmc::Index)>& begin) {
   const std::string kept = "all results but samples_predictive are in place";
@@ -71,7 +72,7 @@ OwnFigures::OwnFigures(std::string directory) : directory_(std::move(directory))
   }
 }
 
-/// Whether it is drawn; a warning if not.
+/// Draws a figure and returns whether it was drawn; warns if not.
 bool OwnFigures::draw(const std::string& figure) const {
   const std::string& source = experiments::source_directory();
   const auto end =

@@ -1,5 +1,5 @@
 /// \file
-/// Figures of the runs of a model of one's own.
+/// Figures for the runs of a user-defined model.
 #pragma once
 
 #include <string>
@@ -9,21 +9,22 @@
 
 namespace examples {
 
-/// The tables of the figures, and the figures that gnuplot draws from them as PDF and PNG: samples_corner, samples_marginals,
-/// samples_stages and, of a model with outputs, samples_predictive. The directory is made if it is not there; files of these names are replaced.
+/// The tables of the figures, and the figures that gnuplot draws from them as PDF and PNG: samples_corner,
+/// samples_marginals, samples_stages and, for a model with outputs, samples_predictive. The directory is
+/// created if it does not exist; files with these names are replaced.
 class OwnFigures {
  public:
-  /// \param directory  empty: none are made
+  /// \param directory  directory of the figures; empty: none are made
   /// \throws io::OutputError if a table cannot be opened there
   explicit OwnFigures(std::string directory);
 
-  /// Writes the tables and draws, after the other results are in place; last what evaluates the model again. Without gnuplot the tables
-  /// stay alone, with a warning.
-  /// \param runs  completed, at least one
-  /// \param draws  of the posterior at which the model is evaluated; 0: no samples_predictive
+  /// Writes the tables and draws the figures, after the other results are in place; the figure that
+  /// evaluates the model again comes last. Without gnuplot only the tables are written, with a warning.
+  /// \param runs  completed runs, at least one
+  /// \param draws  number of posterior draws at which the model is evaluated; 0: no samples_predictive
   /// \param begin  as in predict
-  /// \throws io::OutputError; if the model fails or a signal comes, std::runtime_error and io::Interrupted, which say that all else is
-  ///         in place
+  /// \throws io::OutputError; if the model fails or a signal is received, std::runtime_error or
+  ///         io::Interrupted, which say that everything else is in place
   void make(const std::vector<tmcmc::Result>& runs, const Model& model, long draws,
             const std::function<void(tmcmc::Index)>& begin, const experiments::Report& report) const;
 

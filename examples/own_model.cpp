@@ -35,7 +35,8 @@ const char* advice(tmcmc::StopReason stop) {
   }
 }
 
-/// The checkpoint of a run, counted from 1; empty for none. A device, which keeps nothing, serves all runs.
+/// The checkpoint of a run, counted from 1; empty for none. A device, which keeps nothing, is used for all
+/// runs.
 std::string checkpoint_of(const std::string& base, long run) {
   std::error_code ignored;
   const bool is_device =
@@ -43,7 +44,7 @@ std::string checkpoint_of(const std::string& base, long run) {
   return base.empty() || run == 1 || is_device ? base : fmt::format("{}.{}", base, run);
 }
 
-/// Where the stages are kept: --checkpoint, or beside a file of samples.
+/// Where the stages are stored: --checkpoint, or beside a file of samples.
 std::string checkpoint_base(const ProblemOptions& problem, bool has_file) {
   const std::string base =
       problem.checkpoint.empty() && has_file ? problem.output + ".checkpoint" : problem.checkpoint;

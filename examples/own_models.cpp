@@ -17,7 +17,7 @@ namespace examples {
 
 namespace {
 
-/// The file of the measurements, which a problem file has to name.
+/// The file of the measurements, which a problem file must name.
 const std::string& measurements_file(const ProblemOptions& options) {
   if (options.file() && !options.is_given("--observations")) {
     throw io::InputError(fmt::format("{}: no data: expected file, the measurements, in the table [data]",
@@ -48,7 +48,8 @@ Model shear_frame(const ProblemOptions& options) {
           description, measurements, compared};
 }
 
-/// Phase angles, each within half a turn of the measured one, and then nominal frequency ratios: what friction::Likelihood compares.
+/// Phase angles, each within half a turn of the measured one, followed by nominal frequency ratios: the
+/// values that friction::Likelihood compares.
 ComparedOutputs rig_outputs(const friction::Observations& measured, const friction::Physics& physics) {
   const auto n = static_cast<Eigen::Index>(measured.size());
   ComparedOutputs compared;

@@ -15,48 +15,50 @@
 
 namespace examples {
 
-/// What is known of the measurements, for the NetCDF file.
+/// Data about the measurements, for the NetCDF file.
 struct Measurements {
   std::vector<storage::Column> observed = {};  ///< what was measured
-  std::vector<storage::Column> constant = {};  ///< what else is known of each measurement
-  /// Log-likelihoods of single observations of a population by the name of an observed variable; may be empty.
+  std::vector<storage::Column> constant = {};  ///< further data on each measurement
+  /// Log-likelihoods of single observations of a population, under the name of an observed variable; may be
+  /// empty.
   std::function<std::vector<std::pair<std::string, Eigen::MatrixXd>>(const Eigen::MatrixXd& points)>
       pointwise = {};
 };
 
 /// The outputs of a model that its likelihood compares with the measurements.
 struct ComparedOutputs {
-  /// Of points of all parameters, as many as there are values in Measurements::observed and in their order; empty for a model that
-  /// gives the log-likelihood alone.
+  /// Outputs at points of all parameters, as many as there are values in Measurements::observed and in the
+  /// same order; empty for a model that gives only the log-likelihood.
   models::ForwardModel outputs = {};
-  /// Standard deviations of the errors of measurements at a point, in the units of its outputs.
+  /// Standard deviations of the measurement errors at a point, in the units of the outputs.
   std::function<Eigen::RowVectorXd(const Eigen::RowVectorXd& point, const Eigen::RowVectorXd& outputs)>
       noise = {};
-  std::vector<std::string> labels = {};  ///< of the measurements, short; empty: their numbers
+  std::vector<std::string> labels = {};  ///< short labels of the measurements; empty: their numbers
 };
 
-/// A log-likelihood, its prior, and what is known of both.
+/// A log-likelihood, its prior, and the data belonging to both.
 struct Model {
   tmcmc::Prior prior;                   ///< of the parameters, in the order of the columns of the points
-  tmcmc::LogLikelihood log_likelihood;  ///< of a batch of points
+  tmcmc::LogLikelihood log_likelihood;  ///< log-likelihood of a batch of points
   std::string description;         ///< one line that names all that the values depend on, for the checkpoint
   Measurements measurements = {};  ///< empty for a program that keeps its data to itself
-  ComparedOutputs compared = {};   ///< empty likewise
+  ComparedOutputs compared = {};   ///< empty for a program that keeps its data to itself
 };
 
-/// Who follows a run.
+/// Functions that are informed of the progress of a run.
 struct Listeners {
-  /// Told what the user should know.
+  /// Called with messages for the user.
   std::function<void(const std::string& text)> note;
-  /// Told, from any thread, of how many points a call of the model has given log-likelihoods or outputs.
+  /// Called, from any thread, with the number of points for which a call of the model has given
+  /// log-likelihoods or outputs.
   std::function<void(tmcmc::Index rows)> evaluated;
 };
 
-/// The prior of the problem file, or that of the files of the options.
+/// The prior of the problem file, or the prior of the files given in the options.
 /// \throws io::InputError naming file, line, key or column, and value
 [[nodiscard]] tmcmc::Prior prior_of(const ProblemOptions& options, const problem::ParameterRules& rules);
 
-/// The same log-likelihood or model, whose rows are counted.
+/// The same log-likelihood or model, with its rows counted.
 template <class Values>
 [[nodiscard]] auto counted(
     std::function<void(const Eigen::Ref<const Eigen::MatrixXd>&, Eigen::Ref<Values>)> model,
@@ -70,10 +72,10 @@ template <class Values>
 /// Names of the models in C++, the default first.
 [[nodiscard]] std::vector<std::string> built_in_names();
 
-/// The model of the options; another program is called several times at a time.
-/// \throws std::invalid_argument for more than one model, or a server without a name of a model;
-///         io::InputError naming file, line, field and value; models::ModelError if the program
-///         cannot be run.
+/// The model selected by the options; another program is called concurrently.
+/// \throws std::invalid_argument for more than one model, or for a server without the name of a model;
+///         io::InputError naming file, line, field and value; models::ModelError if the program cannot be
+///         run.
 [[nodiscard]] Model make_model(const ProblemOptions& options, const Listeners& listeners);
 
 }  // namespace examples

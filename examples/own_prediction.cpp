@@ -13,7 +13,7 @@ namespace {
 
 constexpr Index points_of_a_call = 100;  // as the calls of the runs, for which a time-out was chosen
 
-/// Equally weighted draws, the different ones alone, and which of them each draw is.
+/// Equally weighted draws: the distinct ones, and for each draw which of them it is.
 struct Draws {
   Eigen::MatrixXd points;
   std::vector<Index> rows;

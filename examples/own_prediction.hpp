@@ -1,5 +1,5 @@
 /// \file
-/// The measurements of a model of one's own in what its posterior predicts for them.
+/// The measurements of a user-defined model within their posterior predictive distributions.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,29 @@
 
 namespace examples {
 
-/// A measurement, and the band that its posterior predictive distribution gives.
+/// A measurement, and the band of its posterior predictive distribution.
 struct PredictedMeasurement {
-  std::string quantity;    ///< its name in Measurements::observed
-  std::size_t number = 0;  ///< among those of the quantity, from 1
-  std::string label;       ///< of ComparedOutputs, or the number
-  double observed = 0.0;   ///< in its unit, as the band
+  std::string quantity;    ///< name of the quantity in Measurements::observed
+  std::size_t number = 0;  ///< number among the measurements of the quantity, from 1
+  std::string label;       ///< label in ComparedOutputs, or the number
+  double observed = 0.0;   ///< measured value, in its unit, as is the band
   statistics::PredictiveBand band;
 };
 
 /// All measurements, in the order of Measurements::observed.
 struct Prediction {
   std::vector<PredictedMeasurement> measurements;
-  tmcmc::Index evaluations = 0;  ///< of the model, for this alone
+  tmcmc::Index evaluations = 0;  ///< evaluations of the model for the prediction alone
 };
 
-/// Evaluates the model at equally weighted draws of all runs, each of which counts the same: evenly spaced in the sum of the weights
-/// (statistics::equal_rows), so that they depend on the runs alone. A point that is drawn several times is evaluated once; calls have at
-/// most 100 points.
-/// \param model  with outputs
-/// \param draws  at least 1
-/// \param begin  told the number of evaluations before the first
-/// \throws what the model throws; errors::InvalidValue for an output that is not finite; io::Interrupted
+/// Evaluates the model at equally weighted draws of all runs, each of which has the same weight: evenly
+/// spaced in the cumulative weight (statistics::equal_rows), so that they depend on the runs alone. A point
+/// that is drawn several times is evaluated once; calls have at most 100 points.
+/// \param model  a model with outputs
+/// \param draws  number of draws, at least 1
+/// \param begin  called with the number of evaluations before the first one
+/// \throws any exception of the model; errors::InvalidValue for an output that is not finite;
+///         io::Interrupted
 [[nodiscard]] Prediction predict(const std::vector<tmcmc::Result>& runs, const Model& model,
                                  tmcmc::Index draws, const std::function<void(tmcmc::Index)>& begin);
 
@@ -42,7 +43,7 @@ struct Prediction {
 [[nodiscard]] const std::vector<std::string>& prediction_columns();
 void write_prediction(experiments::OptionalCsv& csv, const Prediction& prediction);
 
-/// Prints how many measurements lie in their bands, and what it has cost.
+/// Prints how many measurements lie in their bands, and the cost of the prediction.
 void print_prediction(const experiments::Report& report, const Prediction& prediction);
 
 }  // namespace examples

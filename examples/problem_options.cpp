@@ -20,7 +20,7 @@ using experiments::count;
 using experiments::option_of;
 
 constexpr long default_chains = 100;
-/// Set by keys of their own.
+/// Options of the sampler that have keys of their own.
 const std::vector<std::string> no_sampler_options = {"evaluation_budget", "threads", "batch_rows",
                                                      "diagnose"};
 

@@ -1,5 +1,5 @@
 /// \file
-/// What own_model is asked for, from a problem file and the command line.
+/// The options of own_model, from a problem file and the command line.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,12 @@
 
 namespace examples {
 
-/// The problem. Each value but the tables of parameters and correlations is both a key of the file, in one of its tables, and an
-/// option of the command line, which wins. Paths in the file are relative to the file.
+/// The options of the problem. Each value, except the tables of parameters and correlations, is both a key
+/// in one of the tables of the file and an option of the command line, which takes precedence. Paths in the
+/// file are relative to the file.
 class ProblemOptions {
  public:
-  /// Adds the options, and the file as the argument without a name.
+  /// Adds the options, and the file as the positional argument.
   explicit ProblemOptions(CLI::App& app);
 
   std::string built_in = "shear_frame";  ///< model in C++ by its name; the default if no other is given
@@ -30,21 +31,21 @@ class ProblemOptions {
   std::string model;                     ///< name of the model on that server
   std::string config = "{}";             ///< JSON object that is passed to that model
   double driving_force_n = 2.5;          ///< k Y_b of the friction rig, N
-  double timeout_seconds = 0.0;          ///< of a call; 0: none
-  std::optional<long> parallel;          ///< most calls at a time; as many as threads
-  long batch = 0;                        ///< most points of a call; 0: equal shares
+  double timeout_seconds = 0.0;          ///< time limit of a call; 0: none
+  std::optional<long> parallel;          ///< largest number of concurrent calls; default: as many as threads
+  long batch = 0;                        ///< largest number of points per call; 0: equal shares
 
   std::string observations;         ///< CSV of the data
-  std::string observation;          ///< its column that model outputs are compared with
+  std::string observation;          ///< its column with which model outputs are compared
   std::string standard_deviation;   ///< its column, or one number for all
   std::string noise;                ///< the parameter that multiplies the standard deviations; empty: none
   std::vector<double> observed;     ///< numbers of the problem file in the place of the column
-  std::vector<double> observed_sd;  ///< likewise
+  std::vector<double> observed_sd;  ///< numbers of the problem file in the place of standard_deviation
   problem::PriorFiles prior;        ///< files in the place of the table of parameters
 
-  long evaluations = 31000;  ///< of a run
-  long runs = 1;             ///< independent ones
-  std::uint64_t seed = 1;    ///< of all
+  long evaluations = 31000;  ///< evaluations of a run
+  long runs = 1;             ///< number of independent runs
+  std::uint64_t seed = 1;    ///< seed of all runs
   int threads = 0;           ///< 0: as many as the machine has
 
   std::string output;           ///< CSV of the samples
@@ -54,17 +55,17 @@ class ProblemOptions {
   std::string summary;          ///< CSV of the table that is printed
   std::string checkpoint;       ///< kept stages
 
-  /// The file; nothing without one.
+  /// The problem file; nothing if none is given.
   [[nodiscard]] const std::optional<problem::File>& file() const { return file_; }
-  /// Whether the value of an option, such as --prior, was given here or there.
+  /// Whether the value of an option, such as --prior, was given in the file or on the command line.
   [[nodiscard]] bool is_given(const std::string& option) const;
   /// Whether the model is another program.
   [[nodiscard]] bool is_other_program() const;
-  /// The recommended options, with chains enough that a batch is worth the start of a program; if an option of the sampler was given,
-  /// the recommended moves with it.
+  /// The recommended options, with enough chains that a batch justifies the start of a program; if an option
+  /// of the sampler was given, the recommended moves with that option.
   /// \throws errors::InvalidValue naming the option or the place in the file.
   [[nodiscard]] tmcmc::Options sampler() const;
-  /// The threads, resolved.
+  /// The number of threads, with 0 resolved.
   [[nodiscard]] int thread_count() const;
   /// Refuses a value of the problem file or the command line: "problem.toml:3: data.noise: value 'x': expected ...".
   [[noreturn]] void refuse(const std::string& option, const std::string& expected) const;

@@ -1,4 +1,4 @@
-// What ProblemOptions takes from a problem file.
+// Reading of a problem file by ProblemOptions.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,13 +15,15 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string column_or_number = "COLUMN|FLOAT";
-/// Which of them are given says which model there is: the command line's choice replaces the file's.
+/// The one of these options that is given selects the model: a choice on the command line replaces that of
+/// the file.
 const std::vector<std::string> model_choices = {"--built-in", "--command", "--worker", "--um-bridge"};
 bool contains(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The text of a value as the command line would have it; nothing for another kind of value than the option takes.
+/// The text of a value as the command line would give it; nothing for a value whose type differs from that
+/// of the option.
 std::optional<std::string> text_of(const problem::Node& node, bool is_number, const std::string& type) {
   if (const auto* boolean = std::get_if<bool>(&node.value)) {
     return type == "no|yes" ? std::optional<std::string>(*boolean ? "yes" : "no") : std::nullopt;
@@ -37,7 +39,7 @@ std::optional<std::string> text_of(const problem::Node& node, bool is_number, co
   return text == nullptr || is_number ? std::nullopt : std::optional(*text);
 }
 
-/// A path of the file as it is from the current directory.
+/// A path of the file, relative to the current directory.
 std::string resolved(const std::string& file, const std::string& path) {
   return path.empty() || path == "-" ? path : (fs::path(file).parent_path() / path).string();
 }
@@ -83,7 +85,7 @@ void ProblemOptions::read() {
   }
 }
 
-/// Arrays of numbers, and the table of a model's configuration.
+/// Takes arrays of numbers, and the table with a model's configuration.
 bool ProblemOptions::take_numbers(const std::string& table, const std::string& name,
                                   const problem::Node& node) {
   if (table == "model" && name == "config" && std::holds_alternative<problem::Table>(node.value)) {

@@ -1,5 +1,5 @@
 /// \file
-/// What a run is doing, on the terminal.
+/// The progress of a run, shown on the terminal.
 #pragma once
 
 #include <atomic>
@@ -13,24 +13,25 @@
 
 namespace examples {
 
-/// One line on standard error, if that is a terminal, from half a second on and five times a second, whether or not a call of the
-/// model has come back: run, stage, beta, log-likelihoods and time. It is gone when the object is.
+/// One line on standard error, if that is a terminal, shown after half a second and updated five times a
+/// second, whether or not a call of the model has returned: run, stage, beta, log-likelihoods and time. It
+/// disappears with the object.
 class RunProgress {
  public:
-  /// \param runs  their number
-  /// \param evaluations  budget of each
+  /// \param runs  number of runs
+  /// \param evaluations  budget of each run
   RunProgress(long runs, long evaluations, bool is_enabled);
   ~RunProgress();
   RunProgress(const RunProgress&) = delete;
   RunProgress& operator=(const RunProgress&) = delete;
 
-  /// A run begins, counted from 1.
+  /// Marks the beginning of a run, counted from 1.
   void begin(long run);
-  /// After the runs the model is evaluated again, so many times, for what the posterior predicts.
+  /// Announces that after the runs the model is evaluated so many more times, for the posterior prediction.
   void begin_prediction(tmcmc::Index evaluations);
-  /// So many evaluations are done; from any thread.
+  /// Adds a number of completed evaluations; may be called from any thread.
   void advance(tmcmc::Index evaluations) { done_ += evaluations; }
-  /// A stage has ended.
+  /// Marks the end of a stage.
   void update(const tmcmc::Progress& progress);
 
  private:

@@ -16,7 +16,7 @@ using tmcmc::Index;
 
 namespace {
 
-/// Separate modes of a run, if there are several.
+/// Prints the separate modes of a run, if there are several.
 void print_modes(const experiments::Report& report, const std::vector<ParameterSummary>& names,
                  const tmcmc::Result& run, const std::string& of_run) {
   const auto found = tmcmc::find_modes(run);

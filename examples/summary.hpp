@@ -1,5 +1,5 @@
 /// \file
-/// What own_model reports of its runs.
+/// Report of own_model on its runs.
 #pragma once
 
 #include <string>
@@ -24,7 +24,8 @@ void write_summary(experiments::OptionalCsv& csv, const std::vector<ParameterSum
 
 /// Columns of the CSV file of the samples: the run if there are several, parameters, log-likelihood.
 [[nodiscard]] std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs);
-/// Its rows, of equal weight: of weighted samples as many as they are worth, evenly spaced in the sum of the weights.
+/// The rows of that file, of equal weight: for weighted samples as many as their effective number, evenly
+/// spaced in the cumulative weight.
 void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs);
 
 /// Samples, stages and observations in the layout of ArviZ, runs as chains of the length of the shortest, with equal

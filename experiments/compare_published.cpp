@@ -16,7 +16,7 @@ namespace {
 
 using Cell = replication::ComparedCell;
 
-/// Where the cell stands among replicated studies, as far as that is known.
+/// The position of the cell among replicated studies, as far as it is known.
 std::string place_of(const Cell& cell) {
   std::string text;
   if (!std::isnan(cell.median)) {
@@ -33,12 +33,12 @@ std::string place_of(const Cell& cell) {
   return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
 }
 
-/// Blank where there is no number.
+/// The number as text; blank if there is none.
 std::string number_text(double x, const char* format = "{:.5g}") {
   return std::isnan(x) ? "" : fmt::format(fmt::runtime(format), x);
 }
 
-/// The report: each table with a row for each cell.
+/// The report: each table with one row per cell.
 std::string text_of(const std::vector<Cell>& cells) {
   std::string text;
   std::string table;

@@ -12,7 +12,8 @@ using namespace experiments;
 
 namespace {
 
-/// Whether the column is none of those beside the parameters in the files that the executables write.
+/// Whether the column is a parameter, and not one of the other columns in the files that the executables
+/// write.
 bool is_parameter(const std::string& column) {
   const std::vector<std::string> others = {"sampler", "run", "log_likelihood", "weight"};
   return std::find(others.begin(), others.end(), column) == others.end();

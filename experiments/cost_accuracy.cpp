@@ -17,7 +17,7 @@ using namespace experiments;
 
 namespace {
 
-/// Median, least and largest p-box area of one parameter over the studies.
+/// Median, smallest and largest p-box area of one parameter over the studies.
 struct AreaRange {
   double median, lowest, highest;
 };

@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   run_options.add_to(app, 2);
 
   return report.run(argc, argv, [&] {
-    // 1. What was printed, and the studies of the first setting.
+    // 1. The printed columns, and the studies of the first setting.
     const auto observations = read_observations(inputs.observations);
     const auto printed = read_printed_tables(table3, table4);
     const auto columns = replication::printed_columns(printed.areas, printed.counts);
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
         pairs_output, {"first", "second", "row", "column", "log_density", "gain", "p", "p_error", "weight"});
     auto summary_csv = open_csv(summary_output, {"quantity", "value", "standard_error"});
 
-    // 2. Studies of the others.
+    // 2. Studies of the other settings.
     io::Progress progress("forensics", (settings.size() - 1) * static_cast<std::size_t>(studies),
                           !report.quiet());
     const auto make_problem = [&](const replication::Reading& reading) {

@@ -21,7 +21,7 @@ std::string degrees(double value) {
   return std::isfinite(value) ? fmt::format("{:.8f}", value) : "nan";
 }
 
-/// Analytic and integrated phase over a grid of r and phi, and what motion there is beyond the limit.
+/// Analytic and integrated phase over a grid of r and phi, and the kind of motion beyond the limit.
 void check_phases(const Report& report, OptionalCsv& csv, const friction::Observations& observations,
                   double driving_force_n, long points) {
   report("{:>8} {:>9} {:>9} {:>22} {:>22} {:>24}\n", "r", "phi_lim", "on grid", "largest difference, deg",
@@ -53,7 +53,8 @@ void check_phases(const Report& report, OptionalCsv& csv, const friction::Observ
       largest, compared, stopping_below, continuous_beyond, between);
 }
 
-/// Phase of the discrete bin minus the exact one, and the limit on the grid relative to the exact one, over r.
+/// Phase of the discrete bin minus the exact phase, and the limit on the grid relative to the exact limit,
+/// over r.
 void published_errors(const Report& report, OptionalCsv& csv, double friction_force_n, double driving_force_n,
                       long points) {
   constexpr double lowest = 0.6, highest = 2.0;

@@ -41,7 +41,8 @@ void write_pboxes(OptionalCsv& csv, const replication::Ecdfs& ecdfs, long points
   }
 }
 
-/// Median areas of few studies over a grid of runs and draws a run: how the floor grows with the one and falls with the other.
+/// Median areas of few studies over a grid of runs and draws per run: the floor grows with the number of
+/// runs and falls with the number of draws.
 void write_growth(OptionalCsv& csv, const estimation::ExactPosterior& posterior, std::uint64_t seed) {
   for (const long runs : {10, 50, 200}) {
     for (const long samples : {1000, 4000, 16000}) {

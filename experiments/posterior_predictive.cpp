@@ -13,7 +13,7 @@ using namespace experiments;
 
 namespace {
 
-/// Columns of a table of bands: its own, those of a band, and more.
+/// Columns of a table of bands: the given columns, the columns of a band, and further columns.
 std::vector<std::string> with_band(std::vector<std::string> columns, const std::vector<std::string>& more) {
   for (const char* name : {"median", "model_low", "model_high", "low", "high", "model_low_less_median",
                            "model_high_less_median", "low_less_median", "high_less_median", "share"}) {

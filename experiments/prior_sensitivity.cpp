@@ -26,7 +26,7 @@ std::vector<pbox::Ecdf> ecdfs_of(const std::vector<replication::Run>& runs, std:
   return ecdfs;
 }
 
-/// Of a number that each run gives; without an exact value its bias means nothing.
+/// Error of a number that each run gives; without an exact value its bias has no meaning.
 statistics::EstimateError error_of(const std::vector<replication::Run>& runs,
                                    const std::function<double(const replication::Run&)>& number,
                                    double exact = 0.0) {

@@ -10,7 +10,7 @@ using namespace experiments;
 
 namespace {
 
-/// What the runs say of themselves (--diagnose).
+/// Reports the diagnostics of the runs (--diagnose).
 void report_diagnoses(const Report& report, const std::vector<replication::Run>& runs) {
   const auto d = replication::diagnoses_of(runs);
   report("  bridge log-evidence {:.3f} (sd over runs {:.3f}), standard error of a run {:.3f}\n",

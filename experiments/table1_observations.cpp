@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
     const auto reading = physics.reading();
     const auto& truth = truth_options.truth;
     const bool is_wanted = !audit_output.empty() || !summary_output.empty();
-    // A truth of the reader's own says nothing of the table of the paper.
+    // A truth that the reader gives says nothing about the table of the paper.
     const bool is_of_the_data = !truth_options.is_given(app) || app.get_option("--observations")->count() > 0;
     const bool has_noise = truth.phase_noise_deg > 0.0 && truth.frequency_ratio_noise > 0.0;
     const bool audited = has_noise && (is_wanted || is_of_the_data);

@@ -1,5 +1,5 @@
 /// \file
-/// The exception for a value that is refused: which field, which value, what was expected.
+/// The exception for a refused value: it names the field, the value and what was expected.
 #pragma once
 
 #include <charconv>
@@ -10,8 +10,9 @@
 
 namespace errors {
 
-/// A value that a library function refuses. It carries the parts of the message, so that a caller who knows more (the
-/// file, the line, the column, the option of the command line) can say where the value stands without reading what().
+/// A value that a library function refuses. The exception carries the parts of the message, so that a caller
+/// who knows more (the file, the line, the column, the command-line option) can say where the value stands
+/// without parsing what().
 class InvalidValue : public std::invalid_argument {
  public:
   /// \param field     name of the field as the library calls it, such as "options.samples"
@@ -23,12 +24,13 @@ class InvalidValue : public std::invalid_argument {
         value_(std::move(value)),
         expected_(std::move(expected)) {}
 
-  /// The same for a number, written with the fewest digits from which it can be read back.
+  /// As the constructor above, for a number, which is written with the fewest digits from which it can be
+  /// read back.
   template <class Number>
   requires std::is_arithmetic_v<Number> InvalidValue(std::string field, Number value, std::string expected)
       : InvalidValue(std::move(field), text_of(value), std::move(expected)) {}
 
-  /// Name of the field, as the library calls it.
+  /// Name of the field as the library calls it.
   [[nodiscard]] const std::string& field() const noexcept { return field_; }
   /// The value as text; empty if there is none.
   [[nodiscard]] const std::string& value() const noexcept { return value_; }

@@ -44,7 +44,8 @@ struct Minima {
   std::vector<double> separators;  // the highest grid points between them
 };
 
-/// Local minima of f, ends included: bracketed among equidistant points, or geometric ones, and refined.
+/// Local minima of f, ends included: bracketed on a grid of equidistant or geometrically spaced points, and
+/// refined.
 Minima local_minima(const std::function<double(double)>& f, const Interval& range, int intervals,
                     bool geometric) {
   std::vector<double> x;
@@ -218,7 +219,8 @@ ExactPosterior::Pair ExactPosterior::integrate(const friction::Likelihood& likel
   if (noise_prior != nullptr) {
     return {minima.places.size(), location_table, noise_table, std::nullopt, *noise_prior};
   }
-  // Between the nodes of a panel the density changes by a few nats, the misfit by as many 2 sigma^2.
+  // Between the nodes of a panel the density changes by a few nats, and the misfit by the same number times
+  // 2 sigma^2.
   const auto [lowest, highest] = std::minmax_element(misfits.begin(), misfits.end());
   const NoiseConditional conditional(
       count, noise_range, std::max(0.0, *lowest - 12.0 * noise_range.lower * noise_range.lower), *highest);

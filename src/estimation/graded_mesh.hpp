@@ -7,11 +7,11 @@
 
 namespace estimation {
 
-/// Breakpoints between lower and upper that are spaced in powers of two around every mode.
+/// Breakpoints between lower and upper whose spacing is graded in powers of two around every mode.
 /// \param modes  ascending, inside [lower, upper], at least one
 /// \param separators  ascending, one between each mode and the next
-/// \param drop  drop(mode, x) >= 0: how much the log-density, at its sharpest, falls from mode to x. The
-///        panels next to a mode are halved until it falls by at most 1 over them.
+/// \param drop  drop(mode, x) >= 0: the largest fall of the log-density from mode to x. The panels next to a
+///        mode are halved until the log-density falls by at most 1 over them.
 [[nodiscard]] std::vector<double> graded_mesh(double lower, double upper, const std::vector<double>& modes,
                                               const std::vector<double>& separators,
                                               const std::function<double(double, double)>& drop);

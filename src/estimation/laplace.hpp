@@ -1,5 +1,5 @@
 /// \file
-/// Laplace approximation of the four-dimensional posterior, beside the exact one.
+/// Laplace approximation of the four-dimensional posterior, for comparison with the exact one.
 #pragma once
 
 #include <array>
@@ -12,16 +12,18 @@
 
 namespace estimation {
 
-/// Normal approximation at the mode; arrays in the order and the units of friction::Parameter. NaN until it is made.
+/// Normal approximation at the mode; arrays in the order and the units of friction::Parameter. All values
+/// are NaN until the approximation is computed.
 struct LaplaceApproximation {
   /// Whether the mode is a regular maximum inside the bounds and below the limit of continuous motion, with
-  /// noise levels that the observations determine (BlockFit::fitted_noise). If not, standard_deviation and log_evidence are NaN.
+  /// noise levels that the observations determine (BlockFit::fitted_noise). If not, standard_deviation and
+  /// log_evidence are NaN.
   bool regular = false;
-  /// Maximum of the likelihood.
+  /// Maximiser of the likelihood.
   std::array<double, friction::parameter_count> mode{nan, nan, nan, nan};
-  /// H_ii^(-1/2).
+  /// Standard deviations H_ii^(-1/2).
   std::array<double, friction::parameter_count> standard_deviation{nan, nan, nan, nan};
-  /// log P(D), uniform priors normalised.
+  /// log P(D) under normalised uniform priors.
   double log_evidence = nan;
 
   /// Normal density of one parameter, per its unit; NaN unless regular.
@@ -36,10 +38,10 @@ struct LaplaceApproximation {
 ///
 ///     H_xx = S''(x) / (2 sigma^2),   H_sigma,sigma = 2 n / sigma^2,   sigma^2 = S(x) / n,
 ///
-/// for x = F_mu with sigma_phase and x = omega_n with sigma_r, S being the misfit, whose second
-/// derivative is taken in full (boost::math::differentiation), not as Gauss and Newton have it. The standard
-/// deviations are H_ii^(-1/2) and the log-evidence is log L + 2 log(2 pi) - 1/2 log det H - log(prior volume).
-/// The error of the evidence is of order 1/n.
+/// for x = F_mu with sigma_phase and x = omega_n with sigma_r. S is the misfit; its full second derivative
+/// is used (boost::math::differentiation), not the Gauss-Newton approximation. The standard deviations are
+/// H_ii^(-1/2) and the log-evidence is log L + 2 log(2 pi) - 1/2 log det H - log(prior volume). The error of
+/// the evidence is of order 1/n.
 /// \param fit  fit_least_squares of the same observations and physics
 /// \throws errors::InvalidValue for invalid bounds, observations or physics.
 [[nodiscard]] LaplaceApproximation laplace_approximation(const friction::Observations& observations,

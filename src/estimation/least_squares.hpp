@@ -10,15 +10,15 @@
 
 namespace estimation {
 
-/// Noise levels behind the standard errors, and the search for the global minimum.
+/// Noise levels used for the standard errors, and settings of the search for the global minimum.
 struct LeastSquaresOptions {
   double phase_noise_deg = 2.0;         ///< sigma_phase, deg (Eq. 23); for standard errors and chi^2 only
-  double frequency_ratio_noise = 0.01;  ///< sigma_r (Eq. 22); likewise
+  double frequency_ratio_noise = 0.01;  ///< sigma_r (Eq. 22); for standard errors and chi^2 only
   int starts = 8;                       ///< starting points, equidistant inside the bounds; from 1 to 1000
-  /// Starts whose estimates differ by at most this fraction of the width of the bounds have found the same
-  /// minimum; from 1e-10 to 0.1.
+  /// Starts whose estimates differ by at most this fraction of the width of the bounds count as having found
+  /// the same minimum; from 1e-10 to 0.1.
   double agreement_tolerance = 1e-7;
-  int max_iterations = 200;  ///< of one start, at least 1
+  int max_iterations = 200;  ///< iterations of one start, at least 1
 
   /// \throws errors::InvalidValue if a field is out of its range.
   void validate() const;
@@ -28,48 +28,50 @@ struct LeastSquaresOptions {
 enum class FittedNoise {
   determined,       ///< sqrt(SS / n)
   one_observation,  ///< n = 1: the estimate takes the only degree of freedom
-  perfect_fit  ///< sqrt(SS / n) is at most 1e-9 of the largest observed value, the error of the estimate itself
+  perfect_fit  ///< sqrt(SS / n) is at most 1e-9 of the largest observed value, the accuracy of the estimate
 };
 
-/// Why a noise level is determined or not, as a part of a sentence.
+/// Why a noise level is determined or not, as part of a sentence.
 [[nodiscard]] const char* describe(FittedNoise noise);
 
-/// One weighted fit of n residuals with one unknown x, in N or Hz; residuals in deg or dimensionless.
+/// One weighted fit of n residuals with one unknown x, in N or Hz; residuals are in deg or dimensionless.
 struct BlockFit {
   double estimate = 0.0;  ///< global minimum among the starts
-  double lower = 0.0;     ///< bounds of x
-  double upper = 0.0;     ///< likewise
-  bool at_bound = false;  ///< within agreement_tolerance: the standard errors then mean little
+  double lower = 0.0;     ///< lower bound of x
+  double upper = 0.0;     ///< upper bound of x
+  bool at_bound = false;  ///< within agreement_tolerance of a bound: the standard errors then mean little
 
   std::vector<double> residuals;                       ///< observed minus model, unweighted
-  double sum_of_squares = 0.0;                         ///< SS
-  double noise_given = 0.0;                            ///< sigma of the options
-  FittedNoise fitted_noise = FittedNoise::determined;  ///< if it is not determined, what rests on it is NaN
-  /// sqrt(SS / n), the maximum-likelihood sigma; NaN unless it is determined.
+  double sum_of_squares = 0.0;                         ///< SS, sum of squared residuals
+  double noise_given = 0.0;                            ///< sigma as given in the options
+  FittedNoise fitted_noise = FittedNoise::determined;  ///< if not determined, what depends on it is NaN
+  /// sqrt(SS / n), the maximum-likelihood sigma; NaN unless fitted_noise is determined.
   double noise_ml = 0.0;
-  /// Standard error of the estimate from ceres::Covariance (Gauss-Newton, bounds ignored) with noise_given and
-  /// with noise_ml; NaN if the model does not depend on x at the estimate.
+  /// Standard error of the estimate with noise_given, from ceres::Covariance (Gauss-Newton, bounds ignored);
+  /// NaN if the model does not depend on x at the estimate.
   double standard_error = 0.0;
-  double standard_error_ml = 0.0;    ///< with noise_ml; NaN where that is
+  double standard_error_ml = 0.0;    ///< the same with noise_ml; NaN where noise_ml is NaN
   double chi_squared = 0.0;          ///< SS / noise_given^2
   double reduced_chi_squared = 0.0;  ///< chi_squared / (n - 1); NaN for n = 1
-  /// -n/2 (log(2 pi noise_ml^2) + 1), the part of the log-likelihood at its maximum; NaN where noise_ml is.
+  /// -n/2 (log(2 pi noise_ml^2) + 1), this block's part of the maximum log-likelihood; NaN where noise_ml is
+  /// NaN.
   double log_likelihood = 0.0;
 
   int starts = 0;           ///< starts that were run
   int agreed = 0;           ///< starts that converged to the estimate
   int failed = 0;           ///< starts that did not converge
-  int distinct_minima = 0;  ///< local minima that the converged starts found, this one included
-  int iterations = 0;       ///< of the start that found the estimate
-  std::string termination;  ///< Ceres' message of that start
+  int distinct_minima = 0;  ///< local minima that the converged starts found, including the estimate
+  int iterations = 0;       ///< iterations of the start that found the estimate
+  std::string termination;  ///< Ceres' message for that start
 };
 
-/// Both fits; Eq. 24 factorises into them.
+/// Both fits; Eq. 24 factorises into the two blocks.
 struct LeastSquaresFit {
   BlockFit friction_force;     ///< F_mu, N, and sigma_phase
   BlockFit natural_frequency;  ///< omega_n, Hz, and sigma_r
 
-  /// Of Eq. 24 at its maximum over all four parameters; NaN unless both noise levels are determined.
+  /// Log-likelihood of Eq. 24 at its maximum over all four parameters; NaN unless both noise levels are
+  /// determined.
   [[nodiscard]] double log_likelihood() const {
     return friction_force.log_likelihood + natural_frequency.log_likelihood;
   }
@@ -81,9 +83,10 @@ struct LeastSquaresFit {
 ///     sum_n (r_nom,n - omega_b,n / omega_n)^2 / sigma_r^2        over half the least to twice the largest
 ///                                                                omega_b,n / r_nom,n,
 ///
-/// the limit being the smallest of the observations and the second interval holding the minimiser for any data.
-/// The estimates do not depend on the noise levels and are accurate to about 1e-9 relative, as far as the
-/// minimum is well conditioned; their last digits depend on the C library. Writes nothing to the streams.
+/// where the limit is the smallest over the observations, and the second interval contains the minimiser for
+/// any data. The estimates do not depend on the noise levels and are accurate to about 1e-9 relative if the
+/// minimum is well conditioned; their last digits depend on the C library. The function writes nothing to
+/// the streams.
 /// \throws errors::InvalidValue for invalid observations, physics or options; std::runtime_error if no start
 ///         converges.
 [[nodiscard]] LeastSquaresFit fit_least_squares(const friction::Observations& observations,

@@ -35,7 +35,8 @@ struct LogNoise {
   }
 };
 
-/// Where f has fallen by nats on the way from mode to end, or end; f falls all the way.
+/// The place between mode and end at which f has fallen by nats below its value at the mode, or end; f falls
+/// monotonically.
 double fallen_by(double nats, double mode, double end, const std::function<double(double)>& f) {
   const double threshold = f(mode) - nats;
   if (f(end) >= threshold) {
@@ -50,7 +51,7 @@ double fallen_by(double nats, double mode, double end, const std::function<doubl
   return outside;
 }
 
-/// Below this misfit exp(-S / (2 sigma^2)) is 1 to rounding on the whole interval.
+/// Below this misfit exp(-S / (2 sigma^2)) equals 1 up to rounding on the whole interval.
 double misfit_floor(const Interval& noise) {
   return 2e-18 * noise.lower * noise.lower;
 }
@@ -126,7 +127,7 @@ double NoiseConditional::quantile(double misfit, double p) const {
   const double s = 0.5 * std::max(misfit, misfit_floor(noise_));
   const double low = log(s / (noise_.upper * noise_.upper));
   const double high = log(s / (noise_.lower * noise_.lower));
-  // sigma grows as y = log(t) falls; of the two tails the smaller one keeps its digits.
+  // sigma grows as y = log(t) falls; the smaller of the two tails is used, since it keeps its digits.
   const double above_low = table_.log_exceedance(low);
   const double below_high = table_.log_cdf(high);
   double y = 0.0;

@@ -1,5 +1,5 @@
 /// \file
-/// Box of independent uniform priors on the four parameters (Table 2 of Lye and Marino 2023).
+/// Box-shaped support of independent uniform priors on the four parameters (Table 2 of Lye and Marino 2023).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace estimation {
 /// Bounds of one parameter, in its unit.
 struct Interval {
   double lower = 0.0;  ///< less than upper
-  double upper = 0.0;  ///< finite, as lower is
+  double upper = 0.0;  ///< both bounds are finite
 
   /// upper - lower, in the unit of the parameter.
   [[nodiscard]] double width() const { return upper - lower; }
@@ -19,18 +19,18 @@ struct Interval {
   [[nodiscard]] bool has_inside(double x) const { return x > lower && x < upper; }
 };
 
-/// One interval a parameter, in the order and the units of friction::Parameter.
+/// One interval per parameter, in the order and the units of friction::Parameter.
 using ParameterBounds = std::array<Interval, friction::parameter_count>;
 
-/// \throws errors::InvalidValue, whose field is such as "friction_force.lower", unless all bounds are finite, lower
-///         is less than upper, the friction force is not negative, and natural frequency and noise levels are
-///         positive.
+/// \throws errors::InvalidValue, naming a field such as "friction_force.lower", unless all bounds are
+///         finite, lower is less than upper, the friction force is not negative, and natural frequency and
+///         noise levels are positive.
 void validate(const ParameterBounds& bounds);
 
-/// Logarithm of the volume of the box: minus the log-density of the prior.
+/// Logarithm of the volume of the box, which is minus the log-density of the prior.
 [[nodiscard]] double log_volume(const ParameterBounds& bounds);
 
-/// "friction_force", "natural_frequency", "phase_noise" or "frequency_ratio_noise".
+/// The name "friction_force", "natural_frequency", "phase_noise" or "frequency_ratio_noise".
 [[nodiscard]] const char* name_of(friction::Parameter parameter);
 
 }  // namespace estimation

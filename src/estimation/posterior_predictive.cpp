@@ -19,7 +19,7 @@ void require_draws(std::span<const PredictiveDraw> draws) {
   }
 }
 
-/// By linear interpolation of the order statistics, as statistics::sample_quantile.
+/// Quantile by linear interpolation of the order statistics, as statistics::sample_quantile.
 double quantile(std::vector<double>& values, double p) {
   const double place = p * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::ptrdiff_t>(place);

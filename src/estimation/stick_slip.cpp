@@ -18,8 +18,8 @@ namespace {
 /// Posterior masses below this are not refined.
 constexpr double negligible_mass = 1e-20;
 
-/// Squared phase residuals, the phase being integrated where an observation's motion is not continuous; NaN from phi = 1
-/// on, where the mass rests and has no phase.
+/// Sum of squared phase residuals, where the phase comes from integration in time if an observation's motion
+/// is not continuous; NaN from phi = 1 on, where the mass stays at rest and has no phase.
 double misfit_with_stick_slip(const friction::Observations& observations,
                               const std::vector<friction::ResponseConstants>& constants, double phi) {
   double sum = 0.0;
@@ -48,7 +48,7 @@ Beyond integrate_beyond(const friction::Observations& observations, double drivi
   for (const double r : observations.measured_ratio) {
     constants.push_back(friction::response_constants(r, {.driving_force_n = driving_force_n}));
   }
-  // The motion of one observation after the other stops: there the misfit has kinks.
+  // The misfit has a kink at each force at which the motion of one more observation ceases to be continuous.
   const double top = std::min(force.upper, driving_force_n);
   std::vector<double> limits;
   for (const auto& c : constants) {

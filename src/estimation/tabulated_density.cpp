@@ -26,7 +26,7 @@ double log_add(double a, double b) {
 
 }  // namespace
 
-/// Splits one interval after the other, left to right.
+/// Splits intervals one after the other, from left to right.
 struct TabulatedDensity::Refinement {
   TabulatedDensity& table;
   const std::function<double(double)>& log_density;

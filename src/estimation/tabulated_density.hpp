@@ -1,6 +1,6 @@
 /// \file
-/// A one-dimensional density that is costly to evaluate, as polynomials on panels: distribution function,
-/// quantiles and moments at the cost of a polynomial.
+/// A one-dimensional density that is costly to evaluate, represented by polynomials on panels: distribution
+/// function, quantiles and moments at the cost of evaluating a polynomial.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace estimation {
 
-/// A density that could not be integrated to the tolerance asked for.
+/// Thrown if a density could not be integrated to the requested tolerance.
 class IntegrationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,12 +22,13 @@ class IntegrationError : public std::runtime_error {
 
 /// Accuracy and extent of the table.
 struct TabulationOptions {
-  /// Error of the polynomial that a panel is split for, relative to the largest density on the panel. Where
-  /// rounding in the log-density does not let it be reached, the panel is kept with the error it has.
+  /// A panel is split while the estimated error of its polynomial, relative to the largest density on the
+  /// panel, exceeds this target. Where rounding in the log-density makes the target unattainable, the panel
+  /// is kept with the error it has.
   double target = 1e-12;
   /// Panels on which the density is below e^-cutoff_nats of the largest density are left out.
   double cutoff_nats = 100.0;
-  /// More panels than that end in IntegrationError.
+  /// Largest number of panels; if more are needed, IntegrationError is thrown.
   int max_panels = 20000;
 };
 
@@ -35,14 +36,14 @@ struct TabulationOptions {
 ///
 /// On every panel the density is interpolated at the 20 nodes of the Gauss-Legendre rule
 /// (boost::math::quadrature::gauss) and integrated as a Legendre series. Panels are halved until the
-/// interpolant meets the density at the ends of the panel and its last coefficients vanish, to
-/// TabulationOptions::target, so that also tail probabilities have a small relative error. Masses are kept as
-/// logarithms. Const members may be called at the same time.
+/// interpolant agrees with the density at the ends of the panel and its last coefficients vanish, both to
+/// TabulationOptions::target, so that tail probabilities have a small relative error too. Masses are stored
+/// as logarithms. Const members may be called concurrently.
 class TabulatedDensity {
  public:
-  /// \param name  for messages
+  /// \param name  name of the variable, for messages
   /// \param log_density  natural logarithm; -inf is allowed, NaN is not
-  /// \param mesh  ascending breakpoints, at least two; narrow modes must be resolved by it (graded_mesh)
+  /// \param mesh  ascending breakpoints, at least two; the mesh must resolve narrow modes (graded_mesh)
   /// \throws IntegrationError if the density is 0 at every breakpoint, is NaN or +inf somewhere, or needs
   ///         more than max_panels panels.
   TabulatedDensity(std::string name, const std::function<double(double)>& log_density,
@@ -51,22 +52,23 @@ class TabulatedDensity {
   [[nodiscard]] double density(double x) const;     ///< in 1/[x]; 0 outside the support
   [[nodiscard]] double cdf(double x) const;         ///< P(X <= x)
   [[nodiscard]] double exceedance(double x) const;  ///< P(X > x), not by subtraction from 1
-  /// The x with cdf(x) = p. \throws errors::InvalidValue unless 0 <= p <= 1.
+  /// The x with cdf(x) = p.
+  /// \throws errors::InvalidValue unless 0 <= p <= 1.
   [[nodiscard]] double quantile(double p) const;
-  [[nodiscard]] double mean() const { return mean_; }  ///< of the tabulated density
-  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }  ///< of the same
+  [[nodiscard]] double mean() const { return mean_; }  ///< mean of the tabulated density
+  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }  ///< of that density
 
-  /// Logarithms of cdf and exceedance, and their inverses; the log-probability may be far below -700.
+  /// Logarithm of cdf. This function and the three below work for log-probabilities far below -700.
   [[nodiscard]] double log_cdf(double x) const;
   [[nodiscard]] double log_exceedance(double x) const;                  ///< log P(X > x)
   [[nodiscard]] double quantile_of_log_cdf(double log_p) const;         ///< log_p <= 0
   [[nodiscard]] double quantile_of_log_exceedance(double log_q) const;  ///< log_q <= 0
 
-  /// Ends of the support, the part below e^-cutoff_nats left out.
+  /// Left end of the support, without the part below e^-cutoff_nats.
   [[nodiscard]] double lower() const { return panels_.front().left; }
   [[nodiscard]] double upper() const { return panels_.back().right; }  ///< right end of the last panel
 
-  /// Logarithm of the integral of the density as it was given.
+  /// Logarithm of the integral of the density as given, before normalisation.
   [[nodiscard]] double log_integral() const { return peak_ + log_total_; }
   /// Estimated error of that integral and of any probability: the sum over the panels of interpolation error
   /// times width, as a fraction of the integral.
@@ -75,7 +77,7 @@ class TabulatedDensity {
 
   /// Nodes and weights of the composite Gauss rule on the panels, for other integrals over the same variable.
   [[nodiscard]] const std::vector<double>& nodes() const { return nodes_; }
-  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }  ///< one a node, in [x]
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }  ///< one per node, in [x]
 
  private:
   static constexpr std::size_t order = LegendreRule::order;
@@ -84,12 +86,12 @@ class TabulatedDensity {
   struct Panel {
     double left;
     double right;
-    double log_scale;                        // of the largest density on the panel, relative to peak_
-    double error;                            // of the interpolant, relative to the same
+    double log_scale;                        // log of the panel's largest density, relative to peak_
+    double error;                            // error of the interpolant, relative to that largest density
     double log_ratio;                        // log-density at the right end minus that at the left end
     double total;                            // integral over [-1, 1] at this scale
-    std::array<double, order + 1> density;   // Legendre coefficients, the last one is 0
-    std::array<double, order + 1> integral;  // of the integral from -1
+    std::array<double, order + 1> density;   // Legendre coefficients; the last is 0
+    std::array<double, order + 1> integral;  // Legendre coefficients of the integral from -1
   };
   struct Local {
     double density;

@@ -20,23 +20,24 @@ enum Parameter : int {
   parameter_count
 };
 
-/// Batch log-likelihood of Eq. 24. It factorises into a part of (F_mu, sigma_phase) and one of
-/// (omega_n, sigma_r); sums over the observations that no parameter enters are taken once, at construction.
-/// The residual of a phase is that of an angle (angle_residual_deg). It is given a Normal density, which is that of an
-/// angle as long as sigma_phase is small against a half turn.
-/// Calls are const and may run at the same time.
+/// Batch log-likelihood of Eq. 24. It factorises into one part that depends on (F_mu, sigma_phase) and one
+/// that depends on (omega_n, sigma_r); sums over the observations that do not depend on a parameter are
+/// computed once, at construction. The residual of a phase is the residual of an angle (angle_residual_deg).
+/// It is given a Normal density, which approximates the density of an angle as long as sigma_phase is small
+/// against a half turn.
+/// Const members may be called concurrently.
 class Likelihood {
  public:
-  /// \param infeasible_log_likelihood  value where some observation's motion is not continuous: minus infinity,
-  ///        or the penalty -1e10 of the published scripts.
+  /// \param infeasible_log_likelihood  value where the motion is not continuous for some observation: minus
+  ///        infinity, or the penalty -1e10 of the published scripts.
   /// \throws errors::InvalidValue for invalid observations or physics.
   Likelihood(const Observations& observations, const Physics& physics,
              double infeasible_log_likelihood = -std::numeric_limits<double>::infinity());
 
-  /// Log-likelihood of each point, in natural units (normalised densities).
+  /// Log-likelihood of each point, in natural logarithms (normalised densities).
   /// \param points  n x 4, one column per parameter in the order of Parameter, noise levels and frequency positive
   /// \param log_likelihood  n values, overwritten
-  /// \throws errors::InvalidValue if the shapes do not fit.
+  /// \throws errors::InvalidValue if the shapes do not match.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 
@@ -51,9 +52,9 @@ class Likelihood {
 
   /// Number of observations, n of Eq. 24.
   [[nodiscard]] std::size_t observation_count() const { return constants_.size(); }
-  /// k Y_b, N, of the physics given.
+  /// Amplitude k Y_b of the driving force, N, as given in the physics.
   [[nodiscard]] double driving_force_n() const { return driving_force_n_; }
-  /// Value where some observation's motion is not continuous, as given.
+  /// Value where the motion is not continuous for some observation, as given.
   [[nodiscard]] double infeasible_log_likelihood() const { return infeasible_log_likelihood_; }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 using portable_math::sin_cos;
 using std::numbers::pi;
 
-/// A zero of the function between low and high, bracketed to the tolerance.
+/// A zero of the function between low and high, bracketed to within the tolerance.
 template <class Function>
 double root(Function function, double low, double high, double tolerance) {
   std::uintmax_t evaluations = 200;

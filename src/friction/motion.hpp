@@ -1,5 +1,6 @@
 /// \file
-/// One motion of the Coulomb oscillator over half a forcing period: what time_integration.hpp is made of. Not installed.
+/// One motion of the Coulomb oscillator over half a forcing period: the building block of
+/// time_integration.hpp. This header is not installed.
 #pragma once
 
 #include <array>
@@ -11,15 +12,17 @@
 
 namespace friction {
 
-/// Alternates slides, which end at zeros of velocity, and sticking, which ends where friction gives way.
+/// Alternates slides, which end at zeros of the velocity, and phases of sticking, which end where friction
+/// gives way.
 class Motion {
  public:
-  /// From (x, velocity) at tau = 0; arguments as integrate_half_period, already checked.
-  /// \param trace  takes the points of the motion; null: none
+  /// Starts from (x, velocity) at tau = 0; the arguments are those of integrate_half_period, already
+  /// checked.
+  /// \param trace  receives the points of the motion; null: no trace
   Motion(double r, double phi, double x, double velocity, const TimeIntegrationOptions& options,
          std::vector<MotionPoint>* trace = nullptr);
 
-  /// Goes on to tau = pi. To be called once.
+  /// Continues the motion to tau = pi. To be called once.
   [[nodiscard]] HalfPeriod to_half_period();
 
  private:

@@ -1,15 +1,15 @@
 /// \file
 /// Steady response of a base-excited mass with Coulomb friction against a fixed wall (Den Hartog 1930; Lye
-/// and Marino 2023, Eqs. 10-21), as far as the motion is continuous.
+/// and Marino 2023, Eqs. 10-21), for continuous motion.
 ///
-/// For a given frequency ratio r everything but the force ratio phi is a constant, and the angle of the base
-/// motion against the response is the angle of a complex number
+/// For a given frequency ratio r everything except the force ratio phi is constant, and the angle between
+/// base motion and response is the argument of a complex number
 ///
 ///     (a0 + a1 phi x0 + a2 phi^2) + i (b1 phi x0 + b2 phi^2),   x0 = sqrt(V^2 - (phi U)^2),
 ///
-/// with V = 1/(1 - r^2). For the exact first Fourier coefficient it reduces to
-/// (V + 4/pi U phi^2) + i (4/pi) phi x0. The published scripts take a bin of a discrete transform instead,
-/// which gives the same form with other constants; both are computed by response_constants().
+/// with V = 1/(1 - r^2). For the exact first Fourier coefficient it reduces to (V + 4/pi U phi^2) + i (4/pi)
+/// phi x0. The published scripts use one bin of a discrete Fourier transform instead, which gives the same
+/// form with other constants; response_constants() computes both.
 #pragma once
 
 #include <array>
@@ -23,16 +23,16 @@
 
 namespace friction {
 
-/// How S in the limit of continuous motion (Eq. 18) is taken.
+/// Rule by which S in the limit of continuous motion (Eq. 18) is computed.
 enum class LimitRule {
-  grid,     ///< maximum over tau = pi/15 ... 14 pi/15, as the published scripts do
+  grid,     ///< maximum over tau = pi/15 ... 14 pi/15, as in the published scripts
   supremum  ///< supremum over the half-period (0, pi)
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<LimitRule>) {
   return {"grid", "supremum"};
 }
 
-/// How the phase angle (Eq. 21) is taken from the two signals.
+/// Rule by which the phase angle (Eq. 21) is computed from the two signals.
 enum class PhaseRule {
   discrete_bin,  ///< bin 30 of a 901-point transform of 30 periods, end point repeated (published scripts)
   fourier_coefficient  ///< first Fourier coefficient, in closed form
@@ -41,14 +41,15 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Ph
   return {"discrete-bin", "fourier-coefficient"};
 }
 
-/// The excitation, and how the equations that texts read differently are taken.
+/// The excitation, and the reading of the equations that can be interpreted in more than one way.
 struct Physics {
   double driving_force_n = 2.5;                      ///< k Y_b, N (Section 3 of the paper)
   LimitRule limit = LimitRule::supremum;             ///< Eq. 18
   PhaseRule phase = PhaseRule::fourier_coefficient;  ///< Eq. 21
 };
 
-/// All that the phase angle at one frequency ratio depends on besides the force ratio. Dimensionless.
+/// All quantities on which the phase angle at one frequency ratio depends, apart from the force ratio.
+/// Dimensionless.
 struct ResponseConstants {
   double frequency_ratio;    ///< r = omega_b / omega_n
   double u;                  ///< U of Eq. 16
@@ -61,14 +62,14 @@ struct ResponseConstants {
   double b2;                 ///< imaginary part: factor of phi^2
 };
 
-/// True where U or V is infinite, to within rounding: r = 1, 1/3, 1/5, ...
+/// True where U or V is infinite, up to rounding: r = 1, 1/3, 1/5, ...
 [[nodiscard]] bool is_singular_ratio(double frequency_ratio);
 
 /// U of Eq. 16, written as tan(pi / (2 r)) / r.
 [[nodiscard]] double response_function_u(double frequency_ratio);
 
-/// S of Eq. 18: the largest value over the half-period of
-/// (r sin(tau/r) + U r^2 (cos tau - cos(tau/r))) / sin tau, which tends to 1 at tau -> 0.
+/// S of Eq. 18: the largest value over the half-period of (r sin(tau/r) + U r^2 (cos tau - cos(tau/r))) /
+/// sin tau, which tends to 1 as tau -> 0.
 [[nodiscard]] double response_function_s(double frequency_ratio, LimitRule rule);
 
 /// Constants for one frequency ratio.

@@ -36,7 +36,7 @@ void validate(double frequency_ratio, double force_ratio, const TimeIntegrationO
   require(options.maximum_periods >= 1, "maximum_periods", options.maximum_periods, "1 or more");
 }
 
-/// A point (x, r x') of the half-period map and what the map does there.
+/// A point (x, r x') of the half-period map, with the value of the map there.
 struct Point {
   double x, w;
   HalfPeriod motion;
@@ -57,7 +57,7 @@ struct NewtonStep {
   double error;   // its length, and what rounding can make of it, relative to the size of the motion
 };
 
-/// Newton's step to the fixed point; none where the map is as good as singular.
+/// Newton's step to the fixed point; none where the map is practically singular.
 std::optional<NewtonStep> newton_step(const Point& p) {
   const auto& d = p.motion.derivative;
   const double a = 1.0 + d[0];

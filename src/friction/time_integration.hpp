@@ -3,9 +3,9 @@
 ///
 ///     r^2 x'' + x + phi sgn(x') = cos(tau)                                                  (Eq. 10)
 ///
-/// with the set-valued sign of Filippov at x' = 0: the mass sticks while |cos(tau) - x| <= phi and then
-/// slides the way cos(tau) - x points. No formula of Den Hartog's solution (response.hpp) enters, and
-/// nothing needs the motion to be continuous, so this both checks that solution and goes beyond its limit.
+/// with Filippov's set-valued sign at x' = 0: the mass sticks while |cos(tau) - x| <= phi and then slides in
+/// the direction in which cos(tau) - x points. No formula of Den Hartog's solution (response.hpp) is used,
+/// and the motion need not be continuous, so this both checks that solution and goes beyond its limit.
 ///
 /// Everything is dimensionless: displacement in base amplitudes Y_b, time tau = omega_b t in radians, energy
 /// in k Y_b^2. The forcing is cos(tau): here tau = 0 is the maximum of the base motion, not that of x.
@@ -16,16 +16,18 @@
 
 namespace friction {
 
-/// Defaults give the phase to about 1e-9 deg in well under a millisecond, except near resonance.
+/// The defaults give the phase to about 1e-9 deg in well under a millisecond, except near resonance.
 struct TimeIntegrationOptions {
-  /// Steps of the order-8 Runge-Kutta-Fehlberg method to the shorter of the forcing period and the natural
-  /// period, 2 pi min(1, r); 8 or more. Steps end at stops, so that the sign of velocity is fixed in each.
+  /// Steps of the order-8 Runge-Kutta-Fehlberg method per shorter one of the forcing period and the natural
+  /// period, 2 pi min(1, r); 8 or more. Steps end at stops, so that the sign of the velocity is constant in
+  /// each step.
   int steps_per_period = 64;
   /// Width in tau, rad, to which a zero of velocity is bracketed; 1e-15 to 1e-3.
   double event_tolerance = 1e-13;
-  /// Largest estimated distance to the periodic motion, relative to its size; 1e-15 to 1e-3.
+  /// Largest estimated distance from the periodic motion, relative to its size; 1e-15 to 1e-3.
   double periodicity_tolerance = 1e-11;
-  /// Forcing periods to integrate at most, 1 or more; a steady response rarely takes more than ten.
+  /// Largest number of forcing periods to integrate, 1 or more; a steady response rarely takes more than
+  /// ten.
   int maximum_periods = 200;
 };
 
@@ -39,7 +41,7 @@ struct HalfPeriod {
   double sticking_time;    ///< time spent sticking, rad
   int stops;               ///< intervals of sticking that begin after tau = 0
   /// Derivative of (x, r x') at tau = pi with respect to (x, r x') at tau = 0, by rows. Neither stops nor
-  /// reversals expand it: the distance of two motions in these coordinates never grows.
+  /// reversals expand: the distance between two motions in these coordinates never grows.
   std::array<double, 4> derivative;
 };
 
@@ -51,14 +53,15 @@ struct HalfPeriod {
 [[nodiscard]] HalfPeriod integrate_half_period(double frequency_ratio, double force_ratio, double x,
                                                double velocity, const TimeIntegrationOptions& options = {});
 
-/// A point of a motion.
+/// One point of a motion.
 struct MotionPoint {
   double tau;   ///< rad
   double x;     ///< displacement
   bool sticks;  ///< whether the mass sticks from here to the next point
 };
 
-/// The motion of integrate_half_period as points, from tau = 0 to tau = pi, the ends of its steps and of its sticking.
+/// The motion of integrate_half_period from tau = 0 to tau = pi as points: the ends of its steps and of its
+/// intervals of sticking.
 /// \throws as integrate_half_period.
 [[nodiscard]] std::vector<MotionPoint> trace_half_period(double frequency_ratio, double force_ratio, double x,
                                                          double velocity,
@@ -68,34 +71,36 @@ struct MotionPoint {
 enum class SteadyState {
   periodic,     ///< a periodic motion was found to periodicity_tolerance
   at_rest,      ///< the mass never leaves x = 0 (phi >= 1): no phase is defined
-  not_periodic  ///< none found within maximum_periods: it is unbounded (r = 1 and phi < pi/4), not unique
-                ///< (phi = 0 and r = 1/3, 1/5, ...), or too near to either for the tolerance
+  not_periodic  ///< none found in maximum_periods: motion is unbounded (r = 1 and phi < pi/4), not unique
+                ///< (phi = 0 and r = 1/3, 1/5, ...), or too close to either case for the tolerance
 };
 
-/// Steady response. The numbers describe the periodic motion; where there is none they are NaN, counts 0.
+/// Steady response. The numbers describe the periodic motion; if there is none they are NaN, and counts are
+/// 0.
 struct SteadyResponse {
   SteadyState state;          ///< how the search ended
   double phase_deg;           ///< lag of the first harmonic of x behind cos(tau), in [0, 180] (Eq. 21)
-  double amplitude;           ///< of the first harmonic of x (0 at rest)
+  double amplitude;           ///< amplitude of the first harmonic of x (0 at rest)
   bool continuous;            ///< periodic and the mass never sticks
   int stops_per_period;       ///< intervals of sticking that begin in a period
   double sticking_fraction;   ///< share of the period in which the mass sticks (1 at rest)
-  double x;                   ///< at tau = 0, from which the motion repeats
-  double velocity;            ///< dx/dtau there
-  double work;                ///< of the forcing over a period, pi times the sine coefficient of x
-  double dissipation;         ///< by friction over a period, phi times the path
-  double periodicity_error;   ///< estimated distance to the periodic motion, relative to its size
-  double periods_integrated;  ///< in halves
+  double x;                   ///< displacement at tau = 0, from which the motion repeats
+  double velocity;            ///< dx/dtau at tau = 0
+  double work;                ///< work of the forcing over a period, pi times the sine coefficient of x
+  double dissipation;         ///< dissipation by friction over a period, phi times the path
+  double periodicity_error;   ///< estimated distance from the periodic motion, relative to its size
+  double periods_integrated;  ///< in steps of one half
 };
 
 /// Steady response to Eq. 10, starting from rest at x = 0.
 ///
 /// Seeks the motion with x(tau + pi) = -x(tau) as the fixed point of the map from (x, r x') at tau = 0 to
-/// minus its value half a period later. The map brings no two points further apart, so that iterating it is
-/// integrating the transient; steps of Newton's method take the place of iterations where they can. The
-/// sine and cosine integrals are components of the integrated state, in closed form during sticking. Every
-/// machine gives the same bits (portable_math). Where the map is close to singular, near r = 1, its
-/// inverse amplifies errors of rounding and of the integrator; periodicity_error includes the former.
+/// minus its value half a period later. The map never increases the distance of two points, so that
+/// iterating it amounts to integrating the transient; steps of Newton's method replace iterations where they
+/// can. The sine and cosine integrals are components of the integrated state, in closed form during
+/// sticking. Results are bit-identical on every machine (portable_math). Where the map is close to singular,
+/// near r = 1, its inverse amplifies errors of rounding and of the integrator; periodicity_error includes
+/// the rounding errors.
 /// \param frequency_ratio  r = omega_b / omega_n, from 1e-3 to 1e3
 /// \param force_ratio      phi = F_mu / (k Y_b), zero or more
 /// \throws errors::InvalidValue for arguments or options out of range.

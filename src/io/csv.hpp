@@ -17,61 +17,63 @@
 
 namespace io {
 
-/// A CSV file with a header line, held in memory. The dialect is RFC 4180 with these readings:
+/// A CSV file with a header line, held in memory. The dialect is RFC 4180, read as follows:
 ///  - lines end in LF or CRLF; a UTF-8 byte order mark and blank lines are skipped;
-///  - blanks and tabs around a cell are dropped, inside quotes they are kept;
-///  - a quoted cell ends on its own line;
+///  - blanks and tabs around a cell are dropped; inside quotes they are kept;
+///  - a quoted cell must end on the line on which it begins;
 ///  - there are no comments: a line above the header that begins with `#` is refused, unless it is
 ///    the header itself, as numpy.savetxt writes it: it names as many columns as the next line has
 ///    cells, and one of these is a number;
-///  - a first column without a name holds row numbers or row names (pandas, R) and is left out;
-///  - the separator is the comma, the decimal sign the point, whatever the locale.
+///  - a first column without a name holds row numbers or row names (pandas, R) and is ignored;
+///  - the separator is the comma and the decimal sign is the point, whatever the locale.
 ///
-/// Every complaint about the file is an InputError of one line, such as
+/// Every complaint about the file is an InputError with a one-line message, such as
 ///
 ///     data/x.csv:4: column 'phase_deg': value 'abc': expected a finite number
 ///
-/// that begins with file and line and, where a cell is to blame, its column: by name, or by number
-/// in the header and beyond it. Files that cannot be read or have more than 4 GiB have no line to
-/// name.
+/// that begins with file and line and, where a cell is at fault, its column: by name, or by number in the
+/// header and beyond the header's last column. For files that cannot be read or exceed 4 GiB the message
+/// names no line.
 class CsvTable {
  public:
   /// Reads the whole file.
-  /// \throws InputError if it cannot be read, has no header or no row; if a column name is empty
-  ///         (but for that of row numbers or names) or repeated; if a row has not as many cells as
-  ///         the header; if a quote is not closed or stands inside an unquoted cell; if the file is
-  ///         UTF-16, holds NUL bytes or a CR without LF, is separated by semicolons or tabs, or has
-  ///         more than 4 GiB.
+  /// \throws InputError if the file cannot be read, has no header or no row; if a column name is empty
+  ///         (except that of row numbers or names) or repeated; if a row does not have as many cells as the
+  ///         header; if a quote is not closed or stands inside an unquoted cell; if the file is UTF-16,
+  ///         holds NUL bytes or a CR without LF, is separated by semicolons or tabs, or exceeds 4 GiB.
   static CsvTable read(const std::filesystem::path& path);
 
   /// The path as given to read().
   const std::filesystem::path& path() const noexcept { return path_; }
   /// Number of rows below the header, at least 1.
   std::size_t rows() const noexcept { return lines_.size(); }
-  /// Names of the header, in the order of the file.
+  /// Column names of the header, in the order of the file.
   const std::vector<std::string>& column_names() const noexcept { return names_; }
   /// Whether there is a column of this name.
   bool has(std::string_view column) const noexcept { return places_.find(column) != places_.end(); }
-  /// Line of the file, counted from 1, that holds the row. \throws std::out_of_range.
+  /// Line of the file, counted from 1, that holds the row.
+  /// \throws std::out_of_range if there is no such row.
   std::size_t line(std::size_t row) const { return lines_.at(row); }
-  /// One cell, unquoted; valid while the table lives.
+  /// One cell, unquoted; valid as long as the table exists.
   /// \throws InputError if there is no such column, std::out_of_range if there is no such row.
   std::string_view cell(std::size_t row, std::string_view column) const;
-  /// The number in one cell, as numbers_or_nan reads it; nothing if it is none. \throws as cell().
+  /// The number in one cell, as numbers_or_nan reads it; nothing if the cell holds no number.
+  /// \throws as cell().
   std::optional<double> find_number(std::size_t row, std::string_view column) const;
-  /// Others may exist too. \throws InputError naming the first column that is missing.
+  /// Requires these columns; others may exist too.
+  /// \throws InputError naming the first column that is missing.
   void require_columns(std::initializer_list<std::string_view> columns) const;
 
-  /// A whole column of finite numbers, one per row, as the other columns below. Numbers are decimal,
-  /// correctly rounded, and may carry a sign; a magnitude that a double cannot hold (1e400,
-  /// 1e-400), decimal commas, separators of thousands and hexadecimal digits are refused.
-  /// \throws InputError if there is no such column or a cell does not fit.
+  /// A whole column of finite numbers, one per row (the functions below also return one value per row).
+  /// Numbers are decimal, correctly rounded, and may carry a sign; a magnitude that a double cannot hold
+  /// (1e400, 1e-400), decimal commas, thousands separators and hexadecimal digits are refused.
+  /// \throws InputError if there is no such column or a cell does not hold such a number.
   std::vector<double> numbers(std::string_view column) const;
-  /// The same, with nan, inf and -inf in any case.
+  /// As numbers(), with nan, inf and -inf allowed in any case.
   std::vector<double> numbers_or_nan(std::string_view column) const;
-  /// Whole numbers without point and exponent.
+  /// A column of whole numbers without point and exponent.
   std::vector<long> integers(std::string_view column) const;
-  /// Any text, the empty one included.
+  /// A column of arbitrary text, which may be empty.
   std::vector<std::string> text(std::string_view column) const;
 
   /// Throws the InputError for a cell that breaks a rule only the caller knows; `expected`
@@ -98,9 +100,9 @@ class CsvTable {
 
   std::filesystem::path path_;
   std::vector<std::string> names_;
-  std::map<std::string, std::size_t, std::less<>> places_;  // of the names
-  std::size_t width_ = 0;                                   // cells of a line, those of row names too
-  bool has_row_names_ = false;                              // in a first column without a name
+  std::map<std::string, std::size_t, std::less<>> places_;  // column number of each name
+  std::size_t width_ = 0;                                   // cells of a line, including the row name
+  bool has_row_names_ = false;                              // in a first column without a header name
   std::size_t header_line_ = 0;
   std::vector<std::string> cells_;  // row by row
   std::vector<std::size_t> lines_;
@@ -109,8 +111,7 @@ class CsvTable {
 /// Shortest decimal text that reads back as the same double; "nan" (without sign), "inf", "-inf".
 std::string format_number(double value);
 
-/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before
-/// commit().
+/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before commit().
 class CsvWriter {
  public:
   /// Opens the output ("-" is standard output) and writes the header.
@@ -118,10 +119,11 @@ class CsvWriter {
   ///         is empty or repeated.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
-  /// Writes one row: each argument a number, a text, or a range of doubles or texts that fills
-  /// several cells. Doubles are written by format_number. Texts are quoted where they must be; one
-  /// with a line break in it is valid RFC 4180 but CsvTable refuses it.
-  /// \throws OutputError; std::logic_error if the number of cells is not that of the columns: such
+  /// Writes one row: each argument is a number, a text, or a range of doubles or texts that fills several
+  /// cells. Doubles are written by format_number. Texts are quoted where necessary; a text with a line break
+  /// in it is valid RFC 4180, but CsvTable refuses it.
+  /// \throws OutputError; std::logic_error if the number of cells differs from the number of columns: such a
+  ///         row leaves no trace.
   ///         a row leaves no trace.
   template <class... Cells>
   void row(const Cells&... cells) {
@@ -131,7 +133,7 @@ class CsvWriter {
 
   /// See OutputFile::prepare.
   void prepare() { file_.prepare(); }
-  /// Puts the finished file in place, see OutputFile::commit.
+  /// Puts the finished file in place; see OutputFile::commit.
   void commit() { file_.commit(); }
   /// See OutputFile::in_place.
   [[nodiscard]] bool in_place() const noexcept { return file_.in_place(); }

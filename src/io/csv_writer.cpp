@@ -13,7 +13,7 @@
 namespace io {
 namespace {
 
-// A byte order mark is no text where it starts the file.
+// A byte order mark at the start of the file is not read as text.
 bool starts_with_mark(std::string_view text) {
   return text.starts_with("\xEF\xBB\xBF") || text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
 }

@@ -7,7 +7,7 @@
 
 namespace io {
 
-/// Owns a file descriptor; -1 is none.
+/// Owns a file descriptor; -1 means none.
 class Descriptor {
  public:
   /// Takes over the descriptor.
@@ -16,14 +16,14 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  /// The number, for system calls.
+  /// The number of the descriptor, for system calls.
   [[nodiscard]] int get() const { return fd_; }
-  /// Takes another descriptor instead.
+  /// Closes the descriptor and takes over another one.
   void reset(int fd) {
     close();
     fd_ = fd;
   }
-  /// Closes it, if it is open; false if the system reports a failed write.
+  /// Closes the descriptor if it is open; false if the system reports a failed write.
   bool close() {
     const int fd = std::exchange(fd_, -1);
     return fd < 0 || ::close(fd) == 0 || errno == EINTR;

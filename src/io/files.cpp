@@ -115,7 +115,7 @@ OutputFile::~OutputFile() {
 void OutputFile::open_partial(std::optional<unsigned> kept) {
   const mode_t mode = kept.value_or(0666U);
   in_place_ = false;
-  // A file without a name cannot stay behind, whatever ends the process. It gets its name through /proc.
+  // A file without a name cannot remain, however the process ends. It gets its name through /proc.
   if (::access("/proc/self/fd", X_OK) == 0) {
     file_.reset(open_retrying(target_.parent_path(), O_WRONLY | O_TMPFILE, mode));
   }
@@ -127,7 +127,8 @@ void OutputFile::open_partial(std::optional<unsigned> kept) {
   }
 }
 
-/// Gives the temporary file a name beside the target, or makes it if there is none.
+/// Gives the temporary file a name beside the target, or creates the file with this name if there is none
+/// yet.
 void OutputFile::name_partial(unsigned mode) {
   constexpr int most_names = 100;
   constexpr std::size_t longest_stem = 200;  // leaves room for the process id below NAME_MAX
@@ -158,7 +159,7 @@ void OutputFile::write(std::string_view text) {
 }
 
 void OutputFile::flush() {
-  // What the program printed before comes out before.
+  // Output that the program printed earlier must come out first.
   if (is_stdout_ && std::fflush(stdout) != 0) fail(cannot_write, errno, expected_whole);
   for (std::string_view text = buffer_; !text.empty();) {
     stop_if_interrupted();
@@ -178,7 +179,7 @@ void OutputFile::flush() {
 void OutputFile::prepare() {
   require_open();
   flush();
-  // Some file systems cannot sync and say so; that is no failure of the write.
+  // Some file systems cannot sync and report this; it is not a failure of the write.
   const bool synced = in_place_ || ::fsync(file_.get()) == 0 || errno == EINVAL || errno == ENOSYS;
   if (!synced) fail(cannot_write, errno, expected_whole);
   if (!in_place_ && partial_.empty()) name_partial(0);

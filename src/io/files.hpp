@@ -10,11 +10,11 @@
 
 namespace io {
 
-/// A file that appears complete or not at all. The data go to a temporary file in the target's
-/// directory, which has no name until prepare() (`.name.csv.<process id>.part`; where the file
-/// system knows no file without a name it has that one from the start), and commit() renames it
-/// over the target. Without commit() nothing is left of it, and what stood under the path before is
-/// untouched. Not thread-safe.
+/// A file that appears complete or not at all. The data go to a temporary file in the target's directory,
+/// which has no name until prepare() names it `.name.csv.<process id>.part` (where the file system does not
+/// support unnamed files it has that name from the start); commit() renames it over the target. Without
+/// commit() no trace of the data is left, and whatever stood under the path before is untouched. Not
+/// thread-safe.
 ///
 /// What the path may be:
 ///  - "-" or /dev/stdout, /dev/stderr, /dev/fd/N: that open descriptor, in place;
@@ -23,31 +23,33 @@ namespace io {
 ///  - an existing file: replaced, keeping its permissions; one that is write-protected is refused.
 ///
 /// Every failure is an OutputError that names the path, the system's reason and what was expected.
-/// The constructor and what writes throw Interrupted too (stop_if_interrupted).
+/// The constructor and the members that write also throw Interrupted (stop_if_interrupted).
 class OutputFile {
  public:
-  /// Opens the output, so that a bad path is reported before the work. Throws OutputError.
+  /// Opens the output, so that a bad path is reported before the work.
+  /// \throws OutputError
   explicit OutputFile(const std::filesystem::path& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Appends, through a buffer. Throws OutputError, and std::logic_error after commit().
+  /// Appends the text, through a buffer.
+  /// \throws OutputError; std::logic_error after commit().
   void write(std::string_view text);
 
-  /// Flushes, syncs to the disk and closes: what can fail for want of room. Throws OutputError, and
-  /// then the target is as it was; std::logic_error if called twice.
+  /// Flushes, syncs to the disk and closes: the operations that can fail for lack of space.
+  /// \throws OutputError, which leaves the target as it was; std::logic_error if called twice.
   void prepare();
 
-  /// prepare(), unless that is done, and renames. Throws OutputError, and then the target is as it
-  /// was; std::logic_error if called twice.
+  /// Calls prepare(), unless that is done, and renames the file.
+  /// \throws OutputError, which leaves the target as it was; std::logic_error if called twice.
   void commit();
 
   /// The path as given.
   const std::filesystem::path& path() const noexcept { return path_; }
 
-  /// Whether the path is a descriptor, device or pipe, which is written in place, so that nothing
-  /// can be put beside it.
+  /// Whether the path is a descriptor, device or pipe, which is written in place, so that no file can be put
+  /// beside it.
   bool in_place() const noexcept { return in_place_; }
 
  private:
@@ -67,18 +69,17 @@ class OutputFile {
   std::string buffer_;
 };
 
-/// Puts several outputs in place, those that there are: all are prepared before the first is
-/// renamed, so that one without room leaves each as it was. For OutputFile and CsvWriter. Throws
-/// OutputError.
+/// Puts several outputs in place, skipping those that are absent: all are prepared before the first is
+/// renamed, so that if one lacks space every target stays as it was. For OutputFile and CsvWriter.
+/// \throws OutputError
 template <class... Outputs>
 void commit_all(std::optional<Outputs>&... outputs) {
   ((outputs ? outputs->prepare() : void()), ...);
   ((outputs ? outputs->commit() : void()), ...);
 }
 
-/// Whether two paths lead to one place where an output would be put: the same descriptor, or the
-/// same file, through links, and also if it is not there yet. Devices and pipes may be written to
-/// twice.
+/// Whether two paths lead to the same place for an output: the same descriptor or the same file, also
+/// through links and if the file does not exist yet. Devices and pipes may be written to twice.
 [[nodiscard]] bool is_same_output(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace io

@@ -4,18 +4,18 @@
 
 namespace io {
 
-/// A directory of temporary files, `$TMPDIR/NAME-XXXXXX`, that is removed with all that is in it. A
-/// kill -9 leaves it behind.
+/// A directory for temporary files, `$TMPDIR/NAME-XXXXXX`, that is removed with all its contents by the
+/// destructor. It remains if the process is ended by kill -9.
 class ScratchDirectory {
  public:
   /// \param name  without a slash
-  /// \throws OutputError if it cannot be made.
+  /// \throws OutputError if the directory cannot be made.
   explicit ScratchDirectory(const std::string& name);
   ~ScratchDirectory();
   ScratchDirectory(const ScratchDirectory&) = delete;
   ScratchDirectory& operator=(const ScratchDirectory&) = delete;
 
-  /// Of the directory, absolute.
+  /// Absolute path of the directory.
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds longest_wait(50);  // between two looks at the interrupt flag
 
-/// Errno of a child that could not be started, or 0.
+/// Value of errno for a child that could not be started, or 0.
 int spawn(char* const* arguments, const char* directory, int input, int output, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

@@ -1,5 +1,5 @@
 /// \file
-/// A child process with a limit of time.
+/// A child process with a time limit.
 #pragma once
 
 #include <sys/types.h>
@@ -12,46 +12,52 @@ namespace models {
 
 /// How a child ended.
 struct ChildEnd {
-  /// By itself, by a signal, killed when the time was over, or never begun.
+  /// It exited by itself, was ended by a signal, was killed at the time limit, or was never started.
   enum class Kind { exited, signalled, timed_out, not_started };
-  Kind kind;  ///< which of them
+  Kind kind;  ///< which of these
   int value;  ///< exit status, number of the signal, or errno
 };
 
-/// When a time is over that begins now.
-/// \param seconds  0: never
+/// The deadline of a time limit that begins now.
+/// \param seconds  0: no limit
 [[nodiscard]] std::chrono::steady_clock::time_point deadline_after(double seconds);
 
-/// A program that has been started and leads a process group, which is killed by end() or the destructor. A kill -9 of this
-/// process leaves it running.
+/// A program that has been started and leads its own process group, which end() or the destructor kills. If
+/// this process is ended by kill -9, the program keeps running.
 class Child {
  public:
-  /// Starts arguments[0], a path, with default signals. A program that cannot be started is a child that has ended.
-  /// \param directory  where it runs
+  /// Starts arguments[0], a path, with default signal handling. A program that cannot be started is treated
+  /// as a child that has ended.
+  /// \param directory  working directory of the child
   /// \param input  descriptor of its standard input; -1: /dev/null
-  /// \param output  descriptor of its standard output; -1: the standard error, which it shares with this process
-  /// \throws std::system_error without pidfd_open.
+  /// \param output  descriptor of its standard output; -1: the standard error that it shares with this
+  ///        process
+  /// \throws std::system_error if pidfd_open is not available.
   Child(const std::vector<std::string>& arguments, const std::string& directory, int input = -1,
         int output = -1);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Waits for the leader. Whether it ended before the deadline and before an interrupt (io::catch_interrupts).
+  /// Waits for the leader of the group. Returns whether it ended before the deadline and before an interrupt
+  /// (io::catch_interrupts).
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point deadline) const;
 
-  /// Kills what is left of the group; how the leader ended, by that kill if it still ran.
+  /// Kills the remaining processes of the group. Returns how the leader ended; by this kill if it was still
+  /// running.
   ChildEnd end();
 
  private:
   pid_t leader_ = -1;
   int descriptor_ = -1;  // readable when the leader has ended
-  ChildEnd end_{};       // once leader_ is -1
+  ChildEnd end_{};       // valid once leader_ is -1
 };
 
-/// Runs a child to its end, to a limit of time or to an interrupt, with nothing to read and its standard output on standard error.
+/// Runs a child until it ends, the time limit is reached or an interrupt arrives, with an empty standard
+/// input and its standard output sent to standard error.
 /// \param timeout_seconds  0: no limit
-/// \throws io::Interrupted if a signal has come (io::catch_interrupts); std::system_error without pidfd_open.
+/// \throws io::Interrupted if a signal has been received (io::catch_interrupts); std::system_error if
+///         pidfd_open is not available.
 [[nodiscard]] ChildEnd run_child(const std::vector<std::string>& arguments, const std::string& directory,
                                  double timeout_seconds);
 

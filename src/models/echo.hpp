@@ -1,5 +1,5 @@
 /// \file
-/// Points that a program writes beside its results, compared with those that it was given.
+/// Points that a program writes beside its results, compared with the points it was given.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,12 @@
 
 namespace models {
 
-/// Columns of a table of results that have the names of parameters: the program has written its points back.
+/// Columns of a result table that have the names of parameters, in which the program has written its points
+/// back.
 class Echo {
  public:
-  /// Looks for the columns. The table must outlive it.
-  /// \param parameter_names  one for each column of the points
+  /// Looks for the columns in the table, which must outlive this object.
+  /// \param parameter_names  one name for each column of the points
   Echo(const io::CsvTable& table, const std::vector<std::string>& parameter_names);
 
   /// What is wrong with a row, as "wrote stiffness_1 = 0.7 where the point has 0.9"; empty if it agrees.

@@ -33,7 +33,7 @@ constexpr std::chrono::seconds connection_timeout(30);
 constexpr std::chrono::milliseconds longest_idle(100);
 constexpr std::size_t longest_body = 200;
 
-/// The place after a string that begins at `at` with its quotation mark.
+/// The position after a string whose opening quotation mark is at `at`.
 std::size_t after_string(const std::string& text, std::size_t at) {
   for (++at; at < text.size() && text[at] != '"'; ++at) {
     at += text[at] == '\\' ? 1 : 0;
@@ -41,8 +41,8 @@ std::size_t after_string(const std::string& text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// The JSON of a text. Python writes infinities and NaN, which are no JSON, as words (its json module -Infinity, its lists -inf);
-/// they become texts.
+/// Parses the JSON of a text. Python writes infinities and NaN, which are not valid JSON, as words (its json
+/// module writes -Infinity, its lists -inf); these are converted to texts.
 json parse(const std::string& text) {
   json value = json::parse(text, nullptr, false);
   if (!value.is_discarded()) {
@@ -72,7 +72,8 @@ std::string text_of(const json& object, const char* key) {
                                : io::printable(found->dump(), longest_body);
 }
 
-/// What an answer of another status says: cpp-httplib's servers put the words of an exception into a header.
+/// The text of an answer with another status: cpp-httplib's servers put the message of an exception into a
+/// header.
 std::string words_of(const httplib::Response& answer) {
   const std::string words =
       answer.has_header("EXCEPTION_WHAT") ? answer.get_header_value("EXCEPTION_WHAT") : answer.body;
@@ -93,7 +94,7 @@ void wait_interruptibly(Seconds time) {
 
 }  // namespace
 
-/// The client, and a thread that breaks off what it waits for at an interrupt, and closes a connection that nobody uses.
+/// The HTTP client, with a thread that aborts its waiting at an interrupt and closes an idle connection.
 struct JsonConnection::Http {
   httplib::Client client;
   std::string path;

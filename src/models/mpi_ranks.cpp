@@ -20,16 +20,16 @@ namespace {
 
 using tmcmc::Index;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-/// Rows and columns of a batch, and the outputs of a point, 0 for its log-likelihood.
+/// Rows and columns of a batch, and the number of outputs per point, 0 for the log-likelihood.
 using Header = std::array<long, 3>;
 
 constexpr Header no_more = {-1, 0, 0};
 
 using Text = std::array<char, 4096>;  // of an exception; what is longer is cut off
 
-// Errors of MPI itself end the program: that is MPI's default, and there is nothing to go on with.
+// Errors of MPI itself end the program: this is MPI's default, and the run could not continue anyway.
 
-/// Waits without a processor to itself, which MPI's own waiting takes.
+/// Waits without occupying a processor, as MPI's own waiting does.
 void wait_for(MPI_Request request) {
   constexpr int eager_tests = 100;
   int is_complete = 0;
@@ -50,7 +50,7 @@ Header broadcast(Header header) {
   return header;
 }
 
-/// How many numbers each rank has of a batch, and where they begin.
+/// How many numbers of a batch each rank has, and where they begin.
 struct Parts {
   Parts(long rows, long columns, int ranks) {
     for (long rank = 0; rank < ranks; ++rank) {
@@ -61,7 +61,7 @@ struct Parts {
   std::vector<int> counts, begins;
 };
 
-/// Fills the values of this rank's points, a row per point.
+/// Fills in the values of this rank's points, one row per point.
 void fill(Eigen::MatrixXd& values, const SharedModel& model, const Eigen::MatrixXd& points, long outputs) {
   if (outputs == 0) {
     model.log_likelihood(points, values.col(0));
@@ -71,8 +71,8 @@ void fill(Eigen::MatrixXd& values, const SharedModel& model, const Eigen::Matrix
 }
 
 /// Evaluates this rank's part of a batch; every rank calls it after the header.
-/// \param points, all_values  on rank 0 the batch, a row after the other
-/// \throws on rank 0, for the lowest rank whose model failed.
+/// \param points, all_values  on rank 0 the whole batch, row after row
+/// \throws on rank 0, the exception of the lowest rank whose model failed.
 void evaluate(const SharedModel& model, const Header& header, int rank, int ranks, const Rows& points,
               double* all_values) {
   const auto [rows, columns, outputs] = header;

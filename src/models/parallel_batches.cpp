@@ -16,7 +16,7 @@ namespace {
 using tmcmc::Index;
 using Points = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// The exception of the lowest rows.
+/// Keeps the exception of the call with the lowest rows.
 class FirstFailure {
  public:
   void note(Index first_row) {

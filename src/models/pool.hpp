@@ -1,5 +1,5 @@
 /// \file
-/// Things that calls of several threads use one at a time, kept for the next call.
+/// A pool of objects that concurrent calls use one at a time and keep for later calls.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace models {
 
-/// What no call uses at present: as many as there were calls at a time.
+/// The objects that no call uses at present; there are as many objects as there were concurrent calls.
 template <class Thing>
 class Pool {
  public:
-  /// One for this call alone; null if all are in use, and the caller makes another.
+  /// Takes an object for this call alone; null if all are in use, and the caller then makes another.
   [[nodiscard]] std::unique_ptr<Thing> take() {
     const std::lock_guard lock(mutex_);
     if (idle_.empty()) {
@@ -24,7 +24,7 @@ class Pool {
     return thing;
   }
 
-  /// For the next call.
+  /// Returns an object to the pool for the next call.
   void give_back(std::unique_ptr<Thing> thing) {
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(thing));

@@ -33,7 +33,7 @@ std::string first_line_of(const std::string& program) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-/// The path behind `#!`.
+/// The path after `#!`.
 std::string interpreter_of(std::string_view first_line) {
   constexpr std::string_view blanks = " \t";
   const std::string_view rest = first_line.substr(2);

@@ -27,7 +27,7 @@ std::string shown(const json& value) {
   return io::printable(value.dump(), longest_shown);
 }
 
-/// The value of a key of an answer, converted.
+/// The value of a key in an answer, converted to Value.
 template <class Value>
 Value member(const json& answer, const char* key, const char* expected) {
   try {
@@ -41,7 +41,7 @@ std::size_t total(const Sizes& sizes) {
   return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
 }
 
-/// A number of a model; infinities as Python writes them.
+/// A number returned by a model; infinities may be written as Python writes them.
 double number_of(const json& value, std::size_t outputs) {
   const double number = value.is_number()      ? value.get<double>()
                         : value == "-Infinity" ? -infinity

@@ -1,7 +1,7 @@
 /// \file
 /// Names of enumerators and of the alternatives of a variant, for command lines, files and reports.
 ///
-/// An enum has its names beside it, in the order of its values, which count from 0:
+/// An enum defines its names next to it, in the order of its values, which count from 0:
 ///
 ///     enum class Deviation { population, sample };
 ///     constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Deviation>) {
@@ -23,7 +23,7 @@
 
 namespace names {
 
-/// Whether a type is a std::variant.
+/// Whether T is a std::variant.
 template <class T>
 inline constexpr bool is_variant = false;
 template <class... Alternatives>
@@ -54,7 +54,7 @@ template <class T>
   }
 }
 
-/// Position of a name among those of an enum or a variant; nothing if there is no such name.
+/// Position of a name among the names of an enum or a variant; nothing if there is no such name.
 template <class T>
 [[nodiscard]] std::optional<std::size_t> index_of(std::string_view name) {
   const auto list = enumerator_names(std::type_identity<T>());
@@ -62,7 +62,7 @@ template <class T>
   return found == list.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - list.begin()));
 }
 
-/// The enumerator of a name; nothing if there is no such name.
+/// The enumerator with a name; nothing if there is no such name.
 template <class Enum>
 [[nodiscard]] std::optional<Enum> value_of(std::string_view name) {
   const auto index = index_of<Enum>(name);

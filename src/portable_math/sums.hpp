@@ -1,5 +1,5 @@
 /// \file
-/// Sums in an order that depends on the length alone: eight interleaved partial sums, added pairwise at the
+/// Sums in an order that depends only on the length: eight interleaved partial sums, added pairwise at the
 /// end. Any compiler may vectorise the inner loop, and none may change the result.
 #pragma once
 

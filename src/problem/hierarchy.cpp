@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr tmcmc::Index trial_draws = 1000;
 
-/// As "theta ~ normal(mu, 2)".
+/// The parameters as text, such as "theta ~ normal(mu, 2)".
 std::string describe(const std::vector<ConditionalParameter>& parameters) {
   std::string text;
   for (const auto& parameter : parameters) {
@@ -32,7 +32,7 @@ std::string describe(const std::vector<ConditionalParameter>& parameters) {
   return text;
 }
 
-/// The support, without the bounds that are other parameters.
+/// The support, without bounds that are other parameters.
 tmcmc::Support fixed_support(const ConditionalParameter& parameter, const tmcmc::Marginal& example) {
   tmcmc::Support support = example.support();
   for (std::size_t k = 0; k < parameter.arguments.size(); ++k) {

@@ -15,26 +15,28 @@ namespace problem {
 /// An argument of a distribution: a number, or the index of an earlier parameter.
 using Argument = std::variant<double, std::size_t>;
 
-/// A parameter and its distribution given the parameters before it.
+/// A parameter and its distribution given the parameters that precede it.
 struct ConditionalParameter {
   std::string name;                  ///< as in tmcmc::Parameter
   std::string unit;                  ///< as in tmcmc::Parameter
   tmcmc::Distribution distribution;  ///< a row of tmcmc::distributions()
-  std::vector<Argument> arguments;   ///< in the order of the distribution
+  std::vector<Argument> arguments;   ///< in the order that the distribution takes
 
   /// Whether an argument is another parameter.
   [[nodiscard]] bool depends_on_others() const;
-  /// The distribution at a point of which the parameters before this one are set; it may be empty if the
+  /// The distribution at a point in which the preceding parameters are set; the point may be empty if the
   /// distribution does not depend on them.
-  /// \throws errors::InvalidValue as tmcmc::Marginal, for arguments that it does not take.
+  /// \throws errors::InvalidValue as tmcmc::Marginal, for arguments that the distribution does not accept.
   [[nodiscard]] tmcmc::Marginal given(
       const Eigen::Ref<const Eigen::VectorXd>& point = Eigen::VectorXd()) const;
 };
 
-/// The joint prior: the product of the conditional densities, zero where an argument is not one that its distribution takes. A bound
-/// that is another parameter cuts the density, and the coordinate counts as unbounded on that side.
-/// \throws errors::InvalidValue with the name of a parameter, if values of the parameters before it that the prior draws are no
-///         arguments of its distribution (looked for in 1000 draws), and as tmcmc::Prior(OwnPrior).
+/// The joint prior: the product of the conditional densities, zero where an argument is outside the range
+/// that its distribution accepts. A bound that is another parameter truncates the density, and the
+/// coordinate counts as unbounded on that side.
+/// \throws errors::InvalidValue with the name of a parameter, if the prior draws values of the preceding
+///         parameters that are not valid arguments of its distribution (checked in 1000 draws), and as
+///         tmcmc::Prior(OwnPrior).
 [[nodiscard]] tmcmc::Prior hierarchical_prior(std::vector<ConditionalParameter> parameters);
 
 }  // namespace problem

@@ -38,7 +38,7 @@ nlohmann::ordered_json json_of(const Node& node) {
       node.value);
 }
 
-/// The value in a message.
+/// The value as shown in a message.
 std::string shown(const Node& node) {
   if (const auto* text = std::get_if<std::string>(&node.value)) {
     return io::printable(*text, longest_shown);

@@ -1,5 +1,5 @@
 /// \file
-/// A TOML file (https://toml.io, version 1.0) as a tree of values that know their lines.
+/// A TOML file (https://toml.io, version 1.0) as a tree of values that record their lines.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,17 @@ using Table = std::vector<Entry>;
 
 /// One value of a file.
 struct Node {
-  /// What it is.
+  /// The value itself.
   std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
-  /// Where it begins, from 1; 0 if the file does not have it.
+  /// Line of the file on which the value begins, from 1; 0 if the value is not in the file.
   std::size_t line = 0;
 
-  /// The value of a key; null if this is no table or has no such key.
+  /// The value of a key; null if this node is not a table or has no such key.
   [[nodiscard]] const Node* find(std::string_view key) const;
-  /// Whether it is an integer or a float.
+  /// Whether the value is an integer or a float.
   [[nodiscard]] bool is_number() const;
-  /// An integer or float as a double. \throws std::bad_variant_access for another value.
+  /// The value of an integer or float as a double.
+  /// \throws std::bad_variant_access for a value of another type.
   [[nodiscard]] double number() const;
 };
 
@@ -42,30 +43,31 @@ struct Entry {
 
 /// A file and its root, which is a table.
 struct File {
-  std::string path;  ///< as it was given
+  std::string path;  ///< path as given
   Node root;         ///< its tables and values
 
-  /// Throws the io::InputError "path:line: key: value '...': expected ...".
+  /// \throws io::InputError always, with the text "path:line: key: value '...': expected ...".
   [[noreturn]] void fail(const Node& node, std::string_view key, std::string_view expected) const;
-  /// The text of a string.
-  /// \throws io::InputError with the key for another value.
+  /// The text of a string node.
+  /// \throws io::InputError, naming the key, for a value of another type.
   [[nodiscard]] const std::string& text(const Node& node, std::string_view key) const;
-  /// An integer or a float.
-  /// \throws io::InputError with the key for another value, and for NaN.
+  /// The number in an integer or float node.
+  /// \throws io::InputError, naming the key, for a value of another type, and for NaN.
   [[nodiscard]] double number(const Node& node, std::string_view key) const;
-  /// The values of an array.
-  /// \throws io::InputError with the key for another value.
+  /// The values of an array node.
+  /// \throws io::InputError, naming the key, for a value of another type.
   [[nodiscard]] const Array& array(const Node& node, std::string_view key) const;
-  /// The keys of a table.
-  /// \throws io::InputError with the key for another value.
+  /// The entries of a table node.
+  /// \throws io::InputError, naming the key, for a value of another type.
   [[nodiscard]] const Table& table(const Node& node, std::string_view key) const;
 };
 
 /// Reads a file.
-/// \throws io::InputError naming file and line, if it cannot be read or is no TOML, and for dates and times.
+/// \throws io::InputError, naming file and line, if the file cannot be read or is not TOML, and for dates
+///         and times.
 [[nodiscard]] File read_file(const std::string& path);
 
-/// The value as JSON: what a table of the file is as the configuration of a model.
+/// The value as JSON: the form in which a table of the file is passed to a model as its configuration.
 [[nodiscard]] std::string to_json(const Node& node);
 
 }  // namespace problem

@@ -1,5 +1,5 @@
 /// \file
-/// What a model asks of its parameters, whatever their prior is read from.
+/// Requirements of a model on its parameters, independent of the source of their prior.
 #pragma once
 
 #include <functional>
@@ -8,16 +8,17 @@
 
 namespace problem {
 
-/// Of the arguments of a distribution: its square is a double.
+/// Largest magnitude of an argument of a distribution; its square is still a double.
 constexpr double largest_number = 1e100;
 
-/// What a model asks of its parameters.
+/// Requirements of a model on its parameters.
 struct ParameterRules {
-  /// Those that there have to be, in the order of the model; empty: any, in the order of the file.
+  /// Names of the required parameters, in the order of the model; empty: any names, in the order of the
+  /// file.
   std::vector<std::string> names = {};
   /// Whether no parameter may be negative.
   bool nonnegative = false;
-  /// Throws errors::InvalidValue for a name that a parameter must not have; may be empty.
+  /// Throws errors::InvalidValue for a name that a parameter must not have; the function may be empty.
   std::function<void(const std::string& name)> require_name = {};
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 const std::string of_parameters = "parameter", of_normal_scores = "normal_score";
 
-/// A parameter and where the file has it.
+/// A parameter and its position in the file.
 struct Stated {
   ConditionalParameter parameter;
   const Node* node;
@@ -48,7 +48,7 @@ Argument argument_of(const File& file, const Node& node, const std::string& key,
   return number;
 }
 
-/// The way to state the distribution whose arguments are those given, in any order.
+/// The form of the distribution whose arguments have the given names, in any order.
 const tmcmc::Distribution* find_form(std::string_view distribution, const std::vector<std::string>& given) {
   for (const auto& form : tmcmc::distributions()) {
     if (form.name == distribution &&
@@ -144,7 +144,7 @@ void require_names(const File& file, const std::vector<Stated>& parameters, cons
   }
 }
 
-/// The correlations of the table, and its line.
+/// The correlations given in the table, and their line.
 tmcmc::Correlation correlation_of(const File& file, const Node& node, const std::vector<std::string>& names,
                                   const std::vector<tmcmc::Marginal>& marginals) {
   const auto d = static_cast<Eigen::Index>(names.size());

@@ -47,7 +47,7 @@ double number_in(const io::CsvTable& table, std::size_t row, const std::string& 
   return *number;
 }
 
-/// The cells of the row that are filled, by the names of their columns.
+/// The non-empty cells of the row, by the names of their columns.
 Arguments arguments_of(const io::CsvTable& table, std::size_t row, const std::string& distribution,
                        bool nonnegative) {
   Arguments arguments;
@@ -68,7 +68,7 @@ Arguments arguments_of(const io::CsvTable& table, std::size_t row, const std::st
   return arguments;
 }
 
-/// Refuses bounds of a uniform row without numbers between them.
+/// Refuses the bounds of a uniform row if there are no numbers between them.
 void require_interval(const io::CsvTable& table, std::size_t row, double lower, double upper,
                       bool nonnegative) {
   if (nonnegative && !(lower >= 0.0)) {
@@ -111,7 +111,7 @@ tmcmc::Marginal marginal_of(const io::CsvTable& table, std::size_t row, bool non
   }
 }
 
-/// Refuses supports that the model cannot have, and scales whose squares are no doubles.
+/// Refuses supports that the model does not allow, and scales whose squares are not doubles.
 void require_support(const io::CsvTable& table, std::size_t row, const tmcmc::Marginal& marginal,
                      bool nonnegative) {
   const auto& [lower, upper] = marginal.support();

@@ -1,5 +1,5 @@
 /// \file
-/// Priors from files: one row per parameter, and a matrix of correlations beside it.
+/// Priors from files: one row per parameter, and optionally a matrix of correlations.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace problem {
 
-/// The prior that the user gives.
+/// The files in which the user gives the prior.
 struct PriorFiles {
   std::string marginals;     ///< path of the file with a row for each parameter
   std::string correlations;  ///< path of the matrix; empty for independence

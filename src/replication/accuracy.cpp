@@ -129,7 +129,7 @@ std::vector<Configuration> configurations(const tmcmc::Options& published) {
   add("resampling", "stratified", [](auto& o) { o.resampling = Resampling::stratified; });
   add("resampling", "systematic", [](auto& o) { o.resampling = Resampling::systematic; });
 
-  // From here on the moves get better one by one, each on top of those before.
+  // From here on the moves are improved one by one, each change on top of the previous ones.
   start.criterion.counted = tmcmc::Counted::feasible;
   start.resampling = Resampling::systematic;
   start.scale_rule = tmcmc::DimensionScale{};

@@ -67,7 +67,7 @@ struct Block {
     return t;
   }
 
-  /// Where the misfit has risen by `rise` on the way from the estimate to a bound, at its first rise; or the bound.
+  /// The place between the estimate and a bound at which the misfit first has risen by `rise`; or the bound.
   [[nodiscard]] double end(double bound, double rise, bool& at_bound) const {
     constexpr int steps = 256;
     const auto excess = [&](double x) { return above_minimum(x) - rise; };

@@ -1,5 +1,5 @@
 /// \file
-/// Audit of a table of observations: does it agree with the truth and the noise levels stated for it?
+/// Audit of a table of observations: do they agree with the truth and the noise levels stated for them?
 #pragma once
 
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace replication {
 
-/// One value x of the friction force (N) or the natural frequency (Hz) tested against n observations with
-/// misfit S(x), a sum of squared residuals that is least, S_min, at the least-squares estimate. Every number is NaN
-/// where the motion is not continuous at every observation.
+/// One value x of the friction force (N) or the natural frequency (Hz), tested against n observations with
+/// misfit S(x), a sum of squared residuals whose minimum, S_min, is at the least-squares estimate. All
+/// numbers are NaN unless the motion is continuous at every observation.
 struct PointTest {
   double value = 0.0;          ///< x, N or Hz
   double chi_squared = 0.0;    ///< S(x) / sigma^2, sigma as stated
-  double chi_squared_p = 0.0;  ///< probability of more, chi^2 with n degrees of freedom
+  double chi_squared_p = 0.0;  ///< probability of a larger value, chi^2 with n degrees of freedom
   double likelihood_ratio =
-      0.0;  ///< (S(x) - S_min) / sigma^2: twice the log-likelihood ratio with sigma known
+      0.0;  ///< (S(x) - S_min) / sigma^2: twice the log-likelihood ratio for known sigma
   double likelihood_ratio_p = 0.0;  ///< chi^2 with 1 degree of freedom
-  /// (n - 1) (S(x) - S_min) / S_min, which orders x as the likelihood ratio with sigma unknown does; NaN unless
-  /// the residuals determine sigma (estimation::FittedNoise).
+  /// (n - 1) (S(x) - S_min) / S_min, which orders x in the same way as the likelihood ratio for unknown
+  /// sigma; NaN unless the residuals determine sigma (estimation::FittedNoise).
   double f_statistic = 0.0;
   double f_p = 0.0;  ///< F with 1 and n - 1 degrees of freedom
 };
 
-/// 95 % confidence interval: the values around the estimate that a test at the 5 % level does not reject. An
-/// end that the test does not reach before the bound of the fit is the bound, and marked.
+/// 95 % confidence interval: the values around the estimate that a test at the 5 % level does not reject. If
+/// the test rejects no value before the bound of the fit, that end is the bound, and it is marked.
 struct ConfidenceInterval {
   double lower = 0.0;           ///< N or Hz
   double upper = 0.0;           ///< N or Hz
@@ -35,51 +35,51 @@ struct ConfidenceInterval {
   bool upper_at_bound = false;  ///< upper is the bound of the fit
 };
 
-/// Least squares of one parameter, how well it fits with the noise stated, and tests of other values.
+/// Least squares of one parameter, its goodness of fit with the stated noise, and tests of other values.
 struct ParameterAudit {
   double estimate = 0.0;                   ///< least squares
   double noise_stated = 0.0;               ///< sigma
   estimation::FittedNoise fitted_noise{};  ///< whether the residuals determine sigma
-  double noise_unbiased = 0.0;             ///< sqrt(S_min / (n - 1)); NaN unless they do
+  double noise_unbiased = 0.0;             ///< sqrt(S_min / (n - 1)); NaN unless residuals determine sigma
   double chi_squared = 0.0;                ///< S_min / sigma^2
   double chi_squared_p = 0.0;              ///< n - 1 degrees of freedom; NaN for n = 1
   ConfidenceInterval noise_known_95;       ///< by the likelihood ratio with sigma as stated
   ConfidenceInterval noise_unknown_95;     ///< by the F test; NaN unless the residuals determine sigma
-  std::vector<PointTest> tests;            ///< in the order in which Audit states them
+  std::vector<PointTest> tests;            ///< in the order stated in Audit
 };
 
-/// What the table says of its own statement; vectors have one entry per observation.
+/// Results of testing the table against its own stated truth; vectors have one entry per observation.
 struct Audit {
   std::vector<double> frequency_difference_hz;  ///< omega_b - r omega_n
   std::vector<double> ratio_residual;           ///< (r - r_nom) / sigma_r
-  double ratio_chi_squared = 0.0;               ///< sum of their squares: the errors of Eq. 22
+  double ratio_chi_squared = 0.0;               ///< sum of squares of ratio_residual: the errors of Eq. 22
   double ratio_chi_squared_p = 0.0;             ///< chi^2 with n degrees of freedom
-  /// (phase - model) / sigma_phase at the stated friction force and at the alternative
+  /// (phase - model) / sigma_phase at the stated friction force
   std::vector<double> phase_residual_truth;
-  std::vector<double> phase_residual_alternative;  ///< the same at the alternative
-  ParameterAudit friction_force;                   ///< tests: of the stated truth, then of the alternative
-  ParameterAudit natural_frequency;                ///< tests: of the stated truth
+  std::vector<double> phase_residual_alternative;  ///< the same at the alternative friction force
+  ParameterAudit friction_force;                   ///< tests: stated truth, then alternative
+  ParameterAudit natural_frequency;                ///< tests: stated truth
 };
 
-/// \param truth  what is stated; both noise levels positive
-/// \param alternative_n  another friction force, N
-/// \throws errors::InvalidValue for invalid observations or physics or noise levels that are not positive;
-///         std::runtime_error if least squares does not converge.
+/// \param truth  the stated values; both noise levels positive
+/// \param alternative_n  another friction force to test, N
+/// \throws errors::InvalidValue for invalid observations or physics, or for noise levels that are not
+///         positive; std::runtime_error if least squares does not converge.
 [[nodiscard]] Audit audit(const friction::Observations& observations, const Truth& truth,
                           double alternative_n, const friction::Physics& physics);
 
-/// A line of the table of an audit: a value of a parameter and how it fits.
+/// One line of the audit table: a value of a parameter and its goodness of fit.
 struct AuditLine {
   std::string parameter;   ///< one of parameter_columns
   std::string hypothesis;  ///< "least squares", "stated truth" or "alternative"
-  double noise_stated;     ///< of ParameterAudit
-  double noise_unbiased;   ///< likewise
-  PointTest test;          ///< of least squares without probabilities of the likelihood ratio and of F
+  double noise_stated;     ///< as in ParameterAudit
+  double noise_unbiased;   ///< as in ParameterAudit
+  PointTest test;          ///< for least squares without probabilities of the likelihood ratio and F
   ConfidenceInterval noise_known_95;    ///< around the least-squares estimate; NaN in the other lines
-  ConfidenceInterval noise_unknown_95;  ///< likewise
+  ConfidenceInterval noise_unknown_95;  ///< around the least-squares estimate; NaN in the other lines
 };
 
-/// Of each parameter the least-squares estimate, then the values that were tested.
+/// For each parameter the least-squares estimate, then the values that were tested.
 [[nodiscard]] std::vector<AuditLine> audit_lines(const Audit& audit);
 
 }  // namespace replication

@@ -48,7 +48,7 @@ double log_add(double a, double b) {
   return larger + portable_math::log(1.0 + portable_math::exp(std::min(a, b) - larger));
 }
 
-/// Unit variances, every correlation 0.7; the box ends 10 standard deviations off.
+/// Unit variances, every correlation 0.7; the box extends to 10 standard deviations.
 BenchmarkProblem gaussian(Index d) {
   constexpr double rho = 0.7;
   constexpr double half_width = 10.0;
@@ -70,7 +70,7 @@ BenchmarkProblem gaussian(Index d) {
           .log_evidence = -n * portable_math::log(2.0 * half_width)};
 }
 
-/// x_1 normal, x_2 normal about x_1^2, the others standard normal: the map has unit Jacobian.
+/// x_1 is normal, x_2 is normal about x_1^2, and the others are standard normal: the map has unit Jacobian.
 BenchmarkProblem banana(Index d) {
   constexpr double sd = 0.2;
   const auto log_likelihood = [=](const double* x) {
@@ -89,7 +89,7 @@ BenchmarkProblem banana(Index d) {
           .log_evidence = -portable_math::log(40.0) - static_cast<double>(d - 1) * portable_math::log(12.0)};
 }
 
-/// Round normals on [-10, 10]^d.
+/// Isotropic normals on [-10, 10]^d.
 BenchmarkProblem normals(std::string name, Index d, double sd, std::vector<Eigen::VectorXd> centres,
                          std::vector<double> masses) {
   const auto squared_distance = [=](const double* x, const Eigen::VectorXd& centre) {
@@ -148,7 +148,7 @@ BenchmarkProblem five_modes(Index d) {
   return normals(in_dimensions("five narrow modes", d), d, d == 2 ? 0.1 : 0.3, centres, masses);
 }
 
-/// v normal with a standard deviation of 3, and four coordinates normal with a variance of exp(v).
+/// v is normal with a standard deviation of 3, and four coordinates are normal with a variance of exp(v).
 BenchmarkProblem funnel() {
   constexpr double largest_v = 12.0;
   constexpr double largest_x = 30.0;
@@ -175,7 +175,7 @@ BenchmarkProblem funnel() {
                           others * portable_math::log(2.0 * largest_x)};
 }
 
-/// Log-likelihood 0, and 12 inside a ball that takes a 500th of the box.
+/// Log-likelihood 0, and 12 inside a ball that occupies a 500th of the box.
 BenchmarkProblem plateau_and_ball() {
   constexpr double radius = 0.4151;
   constexpr double height = 12.0;

@@ -1,5 +1,5 @@
 /// \file
-/// Tables that the verdicts on claims rest on.
+/// Tables on which the verdicts on claims are based.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@ namespace replication {
 /// The claims in the order of their file.
 struct ClaimTable {
   std::vector<std::string> ids,  ///< C1, C2, ...
-      places,                    ///< where the paper says it
-      texts;                     ///< what it says
+      places,                    ///< where the paper makes the claim
+      texts;                     ///< what the claim says
 };
 
-/// Claims in columns id, place and claim: each that has a judge, once.
+/// Reads claims from the columns id, place and claim; each claim that has a judge must occur once.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] ClaimTable read_claims(const std::string& path);
 
-/// Over the runs of a study, as sampling_study writes them: rank correlation of the iterations with
-/// the distance of the mean friction force from the exact one.
+/// Rank correlation, over the runs of a study as written by sampling_study, of the number of iterations with
+/// the distance between the run's mean friction force and the exact mean.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n);
 

@@ -28,7 +28,7 @@ tmcmc::Index most_iterations(const PrintedColumn& column) {
   return most;
 }
 
-/// Share of a sampler's studies with a run that took so many iterations or more.
+/// Share of a sampler's studies with a run that took at least so many iterations.
 double share_with(const std::vector<StudySummary>& studies, const std::string& sampler,
                   tmcmc::Index iterations) {
   const auto own = studies_of(studies, sampler);
@@ -38,7 +38,7 @@ double share_with(const std::vector<StudySummary>& studies, const std::string& s
   return static_cast<double>(with) / static_cast<double>(own.size());
 }
 
-/// Runs of a study.
+/// Number of runs of a study.
 long runs_of(const std::vector<StudySummary>& studies) {
   const auto& counts = studies.at(0).iterations;
   return static_cast<long>(total_of({counts.begin(), counts.end()}));
@@ -138,7 +138,7 @@ JudgedClaim judge_stated_force(const Audit& audit) {
   const auto& fit = audit.friction_force;
   const auto& test = fit.tests.front();
   const double critical = quantile(boost::math::chi_squared(1.0), 1.0 - significance_level);
-  // NaN, where the motion would not be continuous, is no agreement either
+  // NaN, where the motion would not be continuous, does not count as agreement either
   const bool agrees = test.likelihood_ratio < critical;
   return {
       not_applicable, agrees ? Verdict::not_rejected : Verdict::contradicted,

@@ -11,29 +11,31 @@
 
 namespace replication {
 
-/// How likely the printed number behind a claim is, and whether the claim is borne out, are two things.
+/// A judged claim. How likely the printed number behind the claim is, and whether the claim is borne out,
+/// are two separate questions.
 struct JudgedClaim {
-  std::string number;    ///< name_of(Chance), or why there is no such word
-  Verdict claim;         ///< on the claim itself
-  std::string evidence;  ///< the statistic behind it, as a sentence
+  std::string number;    ///< name_of(Chance), or the reason why none applies
+  Verdict claim;         ///< verdict on the claim itself
+  std::string evidence;  ///< the statistic behind the verdict, as a sentence
 };
 
 /// The comparisons of the two samplers behind C2 to C5.
 struct Contrasts {
   ContrastVerdict friction_force;     ///< ratio of areas, second sampler over first
-  ContrastVerdict natural_frequency;  ///< likewise
+  ContrastVerdict natural_frequency;  ///< ratio of areas, second sampler over first
   ContrastVerdict iterations;         ///< two-sample deviance of the counts
 };
 
 /// \param printed  columns of the first and the second sampler
-/// \param seed  of the bootstrap
+/// \param seed  seed of the bootstrap
 /// \throws errors::InvalidValue unless there are two columns, and studies of both samplers.
 [[nodiscard]] Contrasts contrast_samplers(const std::vector<StudySummary>& studies,
                                           const std::vector<PrintedColumn>& printed, std::uint64_t seed,
                                           const TableDraws& draws = {});
 
-/// C1: the share of studies whose p-boxes hold both stated values; and how likely the posterior makes the stated force. Where nearly
-/// every study holds a value that the posterior puts beyond its central 95 %, the claim is true whatever the samplers do.
+/// C1: the share of studies whose p-boxes contain both stated values, and the posterior probability of the
+/// stated force. Where nearly every study contains a value that the posterior puts beyond its central 95 %,
+/// the claim is true whatever the samplers do.
 /// \param exceedance  P(F_mu > stated force) of the exact posterior
 [[nodiscard]] JudgedClaim judge_enclosure(const std::vector<StudySummary>& studies, const Truth& stated,
                                           double exceedance);
@@ -42,60 +44,62 @@ struct Contrasts {
 /// \param what  the printed statistic: "ratio" or "deviance"
 [[nodiscard]] JudgedClaim judge_contrast(const ContrastVerdict& contrast, const std::string& what);
 
-/// C5: a cause of worse mixing must make some quantity worse.
+/// C5: a cause of worse mixing must make at least one quantity worse.
 [[nodiscard]] JudgedClaim judge_cause(const Contrasts& contrasts);
 
-/// C6: whether the most frequent number of iterations in Table 4 is the 11 of the text, or the 10 transitions after beta_0.
+/// C6: whether the most frequent number of iterations in Table 4 is the 11 of the text, or the 10
+/// transitions after beta_0.
 [[nodiscard]] JudgedClaim judge_mode(const std::vector<PrintedColumn>& printed);
 
 /// C7: the likelihood-ratio test of the stated force, with the stated noise.
-/// \param audit  whose first test of the friction force is that of the stated one
+/// \param audit  audit whose first test of the friction force is the test of the stated force
 [[nodiscard]] JudgedClaim judge_stated_force(const Audit& audit);
 
 /// C10: whether runs of the first sampler take no more iterations than printed.
 [[nodiscard]] JudgedClaim judge_maximum(const std::vector<StudySummary>& studies,
                                         const std::vector<PrintedColumn>& printed);
 
-/// C11: whether the runs with more iterations are those with a larger error.
+/// C11: whether the runs with more iterations are also the runs with a larger error.
 [[nodiscard]] JudgedClaim judge_iterations_as_evidence(const RankCorrelation& correlation);
 
 /// C12: whether runs vary more than independent draws from the posterior would.
-/// \param area, floor  median p-box areas of the friction force, N: of the studies, and of independent draws
+/// \param area, floor  median p-box areas of the friction force, N: over the studies, and of independent
+///        draws
 [[nodiscard]] JudgedClaim judge_variability(double area, double floor);
 
 /// C15: chi^2 of the observations with the stated noise levels.
 [[nodiscard]] JudgedClaim judge_noise(const Audit& audit);
 
-/// Everything that the claims are judged by.
+/// The evidence by which the claims are judged.
 struct ClaimEvidence {
   const std::vector<StudySummary>& studies;   ///< replicated studies of both samplers
   const std::vector<PrintedColumn>& printed;  ///< Tables 3 and 4 as printed
   const Contrasts& contrasts;                 ///< verdicts on the differences of the samplers
-  const Audit& audit;       ///< of the observations of Table 1, with the exact phase and limit
-  Truth stated;             ///< values that the paper states
-  double exceedance = 0.0;  ///< P(F_mu > stated force) of the exact posterior
+  const Audit& audit;                         ///< audit of Table 1, with the exact phase and limit
+  Truth stated;                               ///< values stated in the paper
+  double exceedance = 0.0;                    ///< P(F_mu > stated force) of the exact posterior
   RankCorrelation
-      iterations_and_error;  ///< over runs: iterations against the distance of the mean from the exact one
+      iterations_and_error;  ///< over runs: iterations against the distance of the mean from the exact mean
   double floor_n = 0.0;      ///< median p-box area of independent draws, N
 };
 
-/// "C1" to "C15", in this order.
+/// The identifiers "C1" to "C15", in this order.
 [[nodiscard]] const std::vector<std::string>& claim_ids();
 
 /// \param id  one of claim_ids()
-/// \throws errors::InvalidValue for another one.
+/// \throws errors::InvalidValue for any other id.
 [[nodiscard]] JudgedClaim judge_claim(const std::string& id, const ClaimEvidence& evidence);
 
 /// A number behind the verdicts.
 struct Statistic {
-  std::string quantity;         ///< what it is
-  double value = 0.0;           ///< of the quantity
-  double standard_error = 0.0;  ///< Monte Carlo; NaN where there is none
+  std::string quantity;         ///< name of the quantity
+  double value = 0.0;           ///< value of the quantity
+  double standard_error = 0.0;  ///< Monte Carlo standard error; NaN where there is none
 };
 
-/// The numbers that the evidence and the report rest on beside the contrasts.
+/// The numbers on which the evidence and the report are based, apart from the contrasts.
 /// \param joint  tests of the printed tables as a whole
-/// \param exact_mean, exact_sd  of the friction force, N
+/// \param exact_mean, exact_sd  exact mean and standard deviation of the friction force, N
 [[nodiscard]] std::vector<Statistic> claim_statistics(const ClaimEvidence& evidence, const JointTests& joint,
                                                       double exact_mean, double exact_sd);
 

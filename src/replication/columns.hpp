@@ -1,5 +1,5 @@
 /// \file
-/// Columns of the tables of the replication: their names, and checks of what stands in them.
+/// Columns of the replication's tables: their names, and checks of their contents.
 #pragma once
 
 #include <string>
@@ -18,19 +18,19 @@ inline const std::vector<std::string> parameter_columns = {"friction_force_n", "
 using io::checked;
 using io::require_once;
 
-/// The numbers of a column, which have to be positive.
+/// The numbers of a column, all of which must be positive.
 /// \throws as io::checked.
 [[nodiscard]] std::vector<double> positive_numbers(const io::CsvTable& table, std::string_view column);
 
-/// The numbers of a column, of which none may be negative.
+/// The numbers of a column, none of which may be negative.
 /// \throws as io::checked.
 [[nodiscard]] std::vector<double> nonnegative_numbers(const io::CsvTable& table, std::string_view column);
 
-/// The integers of a column, from 1.
+/// The integers of a column, all of which must be at least 1.
 /// \throws as io::checked.
 [[nodiscard]] std::vector<long> positive_integers(const io::CsvTable& table, std::string_view column);
 
-/// Refuses a second row of a run; columns sampler and run.
+/// Refuses a second row of the same run; uses the columns sampler and run.
 /// \throws as io::checked.
 void require_runs_once(const io::CsvTable& table);
 

@@ -50,7 +50,7 @@ std::string row_of(const std::string& table, const std::string& what, const std:
                      c.verdict);
 }
 
-/// "TMCMC 6, 44, 0; TMCMC-II 5, 36, 9" of the cells of Table 4.
+/// Text such as "TMCMC 6, 44, 0; TMCMC-II 5, 36, 9" for the cells of Table 4.
 std::string counts_in_words(const std::vector<ComparedCell>& cells, double ComparedCell::*number) {
   std::vector<std::string> samplers;
   std::string text;

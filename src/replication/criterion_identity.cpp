@@ -12,7 +12,7 @@ namespace replication {
 
 namespace {
 
-/// What each rule says of a population; beta after the stage is not known yet.
+/// The result of each rule for a population; beta after the stage is not known yet.
 StageUnderBothRules stage_of(const tmcmc::State& state, const tmcmc::Criterion& cov,
                              const tmcmc::Criterion& ess) {
   const auto log_likelihood = tmcmc::as_span(state.log_likelihood);

@@ -1,5 +1,6 @@
 /// \file
-/// Runs of a sampler that draws from the exact posterior: the floor below any other's p-boxes.
+/// Runs of a sampler that draws from the exact posterior: a lower limit for the p-box areas of any other
+/// sampler.
 #pragma once
 
 #include <array>
@@ -11,15 +12,15 @@
 
 namespace replication {
 
-/// The runs' empirical distribution functions of each parameter.
+/// The empirical distribution functions of the runs, for each parameter.
 using Ecdfs = std::array<std::vector<pbox::Ecdf>, friction::parameter_count>;
 
 /// R runs of N independent exact draws each.
-/// \param seed, study  of the random streams, which are not those of synthetic observations
+/// \param seed, study  select the random streams, which differ from those of synthetic observations
 [[nodiscard]] Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed,
                                std::uint32_t study, long runs, long samples);
 
-/// Areas (Eq. 25) of the p-boxes of exact_runs, one entry a parameter.
+/// Areas (Eq. 25) of the p-boxes of exact_runs, one entry per parameter.
 [[nodiscard]] std::array<double, friction::parameter_count> exact_areas(
     const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study, long runs,
     long samples);

@@ -28,7 +28,8 @@ std::vector<StudySummary> shifted(std::vector<StudySummary> studies, int shift) 
   return studies;
 }
 
-/// A number of iterations that no run of any setting took still has a probability under each.
+/// Categories such that a number of iterations that no run of any setting took still has a probability under
+/// each setting.
 Counts all_categories(const std::vector<std::vector<StudySummary>>& studies,
                       const std::vector<PrintedColumn>& printed) {
   Counts categories;
@@ -58,7 +59,7 @@ SettingFit fit_of(const std::string& name, int shift, const Prediction& predicti
   return fit;
 }
 
-/// By how much the best setting fits a column better than the first setting does.
+/// The difference by which the best setting fits a column better than the first setting does.
 double gain_of(const std::vector<Prediction>& predictions, std::span<const double> areas,
                const Counts& counts) {
   double best = -std::numeric_limits<double>::infinity();

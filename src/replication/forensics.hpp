@@ -1,6 +1,7 @@
 /// \file
-/// Which settings of the sampler could have made the printed columns? A search after the fact: each column under each setting, each pair
-/// of settings, and what a search over so many pairs finds where there is nothing to find.
+/// Which settings of the sampler could have produced the printed columns? A search after the fact over each
+/// column under each setting and over each pair of settings, and the result of a search over so many pairs
+/// when there is nothing to find.
 #pragma once
 
 #include <functional>
@@ -13,21 +14,22 @@
 
 namespace replication {
 
-/// A way to run the sampler that the published scripts leave open, or nearly.
+/// A way to run the sampler that the published scripts leave open, or nearly so.
 struct Setting {
   std::string name;               ///< for tables and figures
-  Reading reading;                ///< of all runs, or of the first half
-  std::optional<Reading> second;  ///< of the second half of the runs: stitched from files of two settings
+  Reading reading;                ///< reading of all runs, or of the first half
+  std::optional<Reading> second;  ///< of the second half, if stitched from files of two settings
 };
 
-/// Metropolis steps a move from 2 to 5, each with proposals outside the prior redrawn and rejected; the population standard deviation;
-/// no penalty; and two stitched sets. The first one is `as_published`.
+/// Settings with 2 to 5 Metropolis steps per move, once with proposals outside the prior redrawn and once
+/// with them rejected; with the population standard deviation; without the penalty; and two stitched sets.
+/// The first setting is `as_published`.
 /// \param samples  N of each run
 [[nodiscard]] std::vector<Setting> forensic_settings(tmcmc::Index samples);
 
 /// Studies of one setting, `count` of them from number 0, with streams of their own.
 /// \param make_problem  the sampling problem of a reading
-/// \param index  of the setting: which streams
+/// \param index  index of the setting, which selects the streams
 /// \param after_each  called after each study
 /// \throws as run_arm.
 [[nodiscard]] std::vector<StudySummary> run_setting(
@@ -36,27 +38,27 @@ struct Setting {
 
 /// A printed column under a setting.
 struct ColumnFit {
-  double log_density = 0.0;  ///< predictive
+  double log_density = 0.0;  ///< log predictive density of the column
   PValue p;                  ///< absolute: against the setting's own studies
 };
 
 /// One setting, its runs counted in one way.
 struct SettingFit {
-  std::string name;                ///< of the setting
-  int shift = 0;                   ///< added to each number of iterations: 1 if beta_0 was counted too
+  std::string name;                ///< name of the setting
+  int shift = 0;                   ///< added to each number of iterations; 1 if beta_0 was counted too
   std::vector<ColumnFit> columns;  ///< of the printed columns, in their order
 };
 
-/// The first printed column by one setting and the second by another.
+/// The first printed column explained by one setting and the second by another.
 struct PairFit {
   std::size_t first = 0;     ///< index of the setting of the first column
-  std::size_t second = 0;    ///< of the second
-  double log_density = 0.0;  ///< of all printed numbers
+  std::size_t second = 0;    ///< index of the setting of the second column
+  double log_density = 0.0;  ///< log predictive density of all printed numbers
   PValue p;                  ///< absolute: against pairs of studies of these settings
-  double weight = 0.0;       ///< share of the likelihood over all pairs, which are a priori alike
+  double weight = 0.0;       ///< share of the likelihood over all pairs, which are equally likely a priori
 };
 
-/// What the search finds.
+/// Results of the search.
 struct Forensics {
   std::vector<SettingFit> settings;  ///< shifts 0, 1 and -1 of each setting
   std::vector<PairFit> pairs;        ///< of settings without shift, row by row
@@ -67,9 +69,10 @@ struct Forensics {
   PValue search_p;
 };
 
-/// \param studies  of each setting, at least 3; the first setting is the one sampler that the search is compared with
-/// \param names  of the settings
-/// \throws errors::InvalidValue unless there are as many names as sets of studies and two printed columns.
+/// \param studies  studies of each setting, at least 3; the first setting is the one sampler with which the
+///        search is compared
+/// \param names  names of the settings
+/// \throws errors::InvalidValue unless there are as many names as sets of studies, and two printed columns.
 [[nodiscard]] Forensics compare_settings(const std::vector<std::vector<StudySummary>>& studies,
                                          const std::vector<std::string>& names,
                                          const std::vector<PrintedColumn>& printed);

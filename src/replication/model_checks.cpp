@@ -10,7 +10,7 @@ namespace replication {
 
 namespace {
 
-/// Closer to the limit than this, as a fraction of it, the integrator can take a near stop for a stop.
+/// At a smaller relative distance from the limit the integrator can mistake a near stop for a stop.
 constexpr double near_limit = 1e-3;
 
 }  // namespace

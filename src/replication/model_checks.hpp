@@ -1,5 +1,5 @@
 /// \file
-/// Den Hartog's solution and the published discretisation against integration of Eq. 10 in time.
+/// Den Hartog's solution and the published discretisation compared with integration of Eq. 10 in time.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace replication {
 
-/// The same motion in the exact model and in the published discretisation (phase from a 901-point transform, limit of
-/// Eq. 18 on a grid of 14 points).
+/// The same motion in the exact model and in the published discretisation (phase from a 901-point transform,
+/// limit of Eq. 18 on a grid of 14 points).
 struct BothModels {
-  friction::ResponseConstants exact;      ///< friction::Physics as it is by default
+  friction::ResponseConstants exact;      ///< friction::Physics with its defaults
   friction::ResponseConstants published;  ///< LimitRule::grid and PhaseRule::discrete_bin
   /// \throws errors::InvalidValue for a ratio without a response.
   BothModels(double frequency_ratio, double driving_force_n);
@@ -23,29 +23,29 @@ struct PhasePoint {
   double exact_deg = 0.0;       ///< closed form
   double published_deg = 0.0;   ///< bin of the published transform
   double integrated_deg = 0.0;  ///< integration in time
-  int stops_per_period = 0;     ///< of the integrated motion
+  int stops_per_period = 0;     ///< stops per period of the integrated motion
 };
 
-/// Motions at one frequency ratio, and what the integration in time says of the models.
+/// Motions at one frequency ratio, and the comparison of the models with the integration in time.
 struct PhaseCheck {
   double frequency_ratio = 0.0;         ///< driving over natural frequency
   double limit_force_ratio = 0.0;       ///< phi_lim, exact
   double limit_force_ratio_grid = 0.0;  ///< phi_lim as published
   std::vector<PhasePoint> points;       ///< force ratios equidistant from 0 to 1
   double largest_difference_deg = 0.0;  ///< exact against integrated, below the limit
-  long compared = 0;                    ///< points behind it
-  long stopping_below = 0;              ///< of these, the motions that stop
+  long compared = 0;                    ///< points behind largest_difference_deg
+  long stopping_below = 0;              ///< motions among the compared ones that stop
   double published_error_deg =
-      0.0;                     ///< largest error of the published phase between the exact limit and its own
+      0.0;                     ///< largest error of the published phase between exact and published limit
   double lowest_deg = 360.0;   ///< smallest phase beyond the limit
   double highest_deg = 0.0;    ///< largest phase beyond the limit
-  int fewest_stops = 1000000;  ///< a period, beyond the limit
-  int most_stops = 0;          ///< likewise
+  int fewest_stops = 1000000;  ///< fewest stops per period beyond the limit
+  int most_stops = 0;          ///< most stops per period beyond the limit
   long continuous_beyond = 0;  ///< motions beyond the limit that do not stop
 };
 
-/// Analytic and integrated phases over force ratios. Points within 1e-3 of the limit, where the integrator can take a near
-/// stop for a stop, and motions that are not periodic are not compared.
+/// Analytic and integrated phases over force ratios. Points within 1e-3 of the limit, where the integrator
+/// can mistake a near stop for a stop, and motions that are not periodic are not compared.
 /// \param points  2 or more
 [[nodiscard]] PhaseCheck check_phase(double frequency_ratio, double driving_force_n, long points);
 
@@ -56,7 +56,8 @@ struct DiscretisationError {
   double limit_relative = 0.0;   ///< published limit over the exact one, minus 1
 };
 
-/// Errors of the published discretisation at frequency ratios equidistant from `lowest` to `highest`, singular ones left out.
+/// Errors of the published discretisation at frequency ratios equidistant from `lowest` to `highest`,
+/// without the singular ones.
 /// \param points  2 or more
 [[nodiscard]] std::vector<DiscretisationError> discretisation_errors(double lowest, double highest,
                                                                      long points, double friction_force_n,

@@ -6,7 +6,7 @@ namespace replication {
 
 namespace {
 
-/// One of the four parameters. The squares of the noise levels have to be positive doubles.
+/// Values of one of the four parameters. The squares of the noise levels must be positive doubles.
 std::vector<double> parameter(const io::CsvTable& table, std::size_t p) {
   const std::string& column = parameter_columns[p];
   if (p == friction::friction_force) {

@@ -1,5 +1,5 @@
 /// \file
-/// The model at the points of a table.
+/// Outputs of the model at the points of a table.
 #pragma once
 
 #include <vector>
@@ -9,18 +9,18 @@
 
 namespace replication {
 
-/// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion
-/// (Eq. 18), a row per point.
+/// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion (Eq. 18),
+/// one row per point.
 struct Phases {
   std::vector<double> phase_deg,  ///< in degrees
       limit_force_ratio;          ///< as a multiple of the driving force
 };
 
-/// At points in the columns friction_force_n and frequency_ratio.
+/// Phases and limits at the points in the columns friction_force_n and frequency_ratio.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] Phases phases(const io::CsvTable& table, const friction::Physics& physics);
 
-/// Log-likelihoods (Eq. 24) at points in the columns parameter_columns.
+/// Log-likelihoods (Eq. 24) at the points in the columns parameter_columns.
 /// \throws as phases.
 [[nodiscard]] std::vector<double> log_likelihoods(const io::CsvTable& table,
                                                   const friction::Likelihood& likelihood);

@@ -1,5 +1,5 @@
 /// \file
-/// Priors that differ from Table 2 in the noise levels alone.
+/// Priors that differ from Table 2 only in the noise levels.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace replication {
 
-/// A prior of the four parameters, with a name.
+/// A named prior of the four parameters.
 struct NoisePrior {
-  /// Distribution of the noise levels, as tmcmc::distributions() calls it.
+  /// Distribution of the noise levels, as named in tmcmc::distributions().
   std::string name;
-  /// With the uniform distributions of the box for force and frequency.
+  /// The prior, with the uniform distributions of the box for force and frequency.
   tmcmc::Prior prior;
 };
 
-/// Noise levels that are uniform as in the box, log-uniform between the same bounds, and half-normal
+/// Priors whose noise levels are uniform as in the box, log-uniform between the same bounds, and half-normal
 /// with a standard deviation of half the upper bound.
 /// \param box  bounds of the four parameters, in the order of friction::Parameter
 /// \throws errors::InvalidValue for bounds that a distribution cannot have, such as a log-uniform 0.

@@ -14,7 +14,7 @@ const estimation::TabulatedDensity& marginal(const estimation::ExactPosterior& p
   return posterior.marginal(static_cast<friction::Parameter>(p));
 }
 
-/// All but 2e-4 of the probability.
+/// Range that holds all but 2e-4 of the probability.
 estimation::Interval drawn_range(const estimation::TabulatedDensity& exact) {
   return {exact.quantile(1e-4), exact.quantile(1.0 - 1e-4)};
 }

@@ -1,5 +1,5 @@
 /// \file
-/// What a figure or table shows of the exact posterior, and how far the samplers are from it.
+/// Contents of figures and tables about the exact posterior, and the distances of the samplers from it.
 #pragma once
 
 #include <array>
@@ -13,38 +13,38 @@
 
 namespace replication {
 
-/// What is known of one parameter, in its unit.
+/// Estimates of one parameter, in its unit.
 struct ParameterEstimate {
   /// Levels of the quantiles.
   static constexpr std::array<double, 5> levels{0.025, 0.25, 0.5, 0.75, 0.975};
-  /// Exact.
+  /// Exact posterior mean and standard deviation.
   double mean, standard_deviation;
-  /// Exact, at the levels.
+  /// Exact quantiles at the levels.
   std::array<double, 5> quantiles;
-  /// Of the normal approximation; NaN where there is none.
+  /// Mode and standard deviation of the normal approximation; NaN where there is none.
   double laplace_mode, laplace_standard_deviation;
-  /// Least squares; of a noise level the estimate of maximum likelihood.
+  /// Least-squares estimate; for a noise level the maximum-likelihood estimate.
   double least_squares;
 };
 
-/// One a parameter, in the order of friction::Parameter.
+/// One estimate per parameter, in the order of friction::Parameter.
 [[nodiscard]] std::vector<ParameterEstimate> parameter_estimates(
     const estimation::ExactPosterior& posterior, const estimation::LaplaceApproximation& laplace,
     const estimation::LeastSquaresFit& fit);
 
 /// The error of one sampler in one quantity, from its runs.
 struct QuantityError {
-  /// As in the runs.
+  /// Name of the sampler, as in the runs.
   std::string sampler;
-  /// One of estimated_quantities.
+  /// One of estimated_quantities().
   std::string quantity;
   /// Number of estimates.
   std::size_t runs;
   /// Value of the exact posterior.
   double exact;
-  /// Of the estimates.
+  /// Error of the estimates.
   statistics::EstimateError error;
-  /// Number of independent samples whose mean would spread as much; NaN of other quantities than
+  /// Number of independent samples whose mean would have the same spread; NaN for quantities other than
   /// means.
   double effective_size;
 };
@@ -54,62 +54,62 @@ struct QuantityError {
 [[nodiscard]] std::vector<QuantityError> errors_of(const GroupedColumns& runs,
                                                    const estimation::ExactPosterior& posterior);
 
-/// A place on the exact marginal of a parameter.
+/// A point on the exact marginal of a parameter.
 struct MarginalPoint {
-  /// Friction::Parameter.
+  /// Index in the order of friction::Parameter.
   std::size_t parameter;
-  /// In the unit of the parameter.
+  /// Value, in the unit of the parameter.
   double x;
-  /// Exact, per that unit.
+  /// Exact density, per that unit.
   double density;
-  /// Exact.
+  /// Exact distribution function.
   double cdf;
-  /// Of the normal approximation.
+  /// Density of the normal approximation.
   double laplace_density;
 };
 
-/// Each marginal at equal distances over all but 2e-4 of its probability.
-/// \param points  of each marginal, at least 2
+/// Points of each marginal at equal distances over all but 2e-4 of its probability.
+/// \param points  points per marginal, at least 2
 [[nodiscard]] std::vector<MarginalPoint> marginal_points(const estimation::ExactPosterior& posterior,
                                                          const estimation::LaplaceApproximation& laplace,
                                                          long points);
 
-/// The p-box of a sampler at one place, beside the exact distribution function.
+/// The p-box of a sampler at one point, with the exact distribution function.
 struct PboxPoint {
-  /// As in the samples.
+  /// Name of the sampler, as in the samples.
   std::string sampler;
-  /// Friction::Parameter.
+  /// Index in the order of friction::Parameter.
   std::size_t parameter;
-  /// In the unit of the parameter.
+  /// Value, in the unit of the parameter.
   double x;
   /// Smallest and largest value of the runs' empirical distribution functions.
   double lower, upper;
-  /// Value of the exact one.
+  /// Value of the exact distribution function.
   double exact;
 };
 
-/// P-boxes of all runs of each sampler on the places of marginal_points.
-/// \param samples  of the four parameters in order
-/// \param points  of each parameter, at least 2
+/// P-boxes of all runs of each sampler at the values of marginal_points.
+/// \param samples  samples of the four parameters in order
+/// \param points  points per parameter, at least 2
 [[nodiscard]] std::vector<PboxPoint> pbox_points(const GroupedColumns& samples,
                                                  const estimation::ExactPosterior& posterior, long points);
 
 /// A bin of the pooled samples of a sampler.
 struct HistogramBin {
-  /// As in the samples.
+  /// Name of the sampler, as in the samples.
   std::string sampler;
-  /// Friction::Parameter.
+  /// Index in the order of friction::Parameter.
   std::size_t parameter;
-  /// In the unit of the parameter.
+  /// Lower end of the bin, in the unit of the parameter.
   double low;
-  /// The next bin's low.
+  /// Upper end of the bin, which is the next bin's low.
   double high;
-  /// Per that unit.
+  /// Density, per that unit.
   double density;
 };
 
 /// Histograms over the ranges of marginal_points.
-/// \param samples  of the four parameters in order
+/// \param samples  samples of the four parameters in order
 [[nodiscard]] std::vector<HistogramBin> sample_histograms(const GroupedColumns& samples,
                                                           const estimation::ExactPosterior& posterior,
                                                           long bins);

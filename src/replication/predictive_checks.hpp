@@ -1,5 +1,5 @@
 /// \file
-/// Draws of the posterior predictive distribution of the rig, and how the measurements lie in it.
+/// Draws from the posterior predictive distribution of the rig, and the position of the measurements in it.
 #pragma once
 
 #include <functional>
@@ -10,53 +10,54 @@
 
 namespace replication {
 
-/// How draws are made.
+/// Settings for drawing from the posterior.
 struct PredictiveDrawing {
-  std::uint64_t seed = 1;            ///< of the random stream
-  long draws = 10000;                ///< of each posterior
-  int threads = 1;                   ///< over the draws, which do not depend on it
-  std::function<void()> observer{};  ///< called once after each posterior was drawn from; may be empty
+  std::uint64_t seed = 1;            ///< seed of the random stream
+  long draws = 10000;                ///< draws per posterior
+  int threads = 1;                   ///< threads over the draws; the draws do not depend on the number
+  std::function<void()> observer{};  ///< called once after the draws from each posterior; may be empty
 };
 
-/// Independent draws of a posterior, each with the errors of a new measurement.
-/// \param stream  of random numbers: one for each posterior
+/// Independent draws from a posterior, each with the errors of a new measurement.
+/// \param stream  number of the random stream: one for each posterior
 [[nodiscard]] std::vector<estimation::PredictiveDraw> predictive_draws(
     const estimation::ExactPosterior& posterior, const PredictiveDrawing& drawing, std::uint32_t stream);
 
-/// Where a curve of predictions is drawn: the range of the measured places and a tenth of its width beyond on each side, or of
-/// their size if they are all one; from half the smallest on at least.
+/// Range over which a curve of predictions is drawn: the range of the measured ratios or frequencies,
+/// extended on each side by a tenth of its width, or by a tenth of their size if all are equal; it starts at
+/// half the smallest one or above.
 /// \param measured  positive, not empty
 [[nodiscard]] estimation::Interval curve_range(const std::vector<double>& measured);
 
-/// An end of a marginal.
+/// An end of a marginal at which it is cut off.
 struct CutOff {
   friction::Parameter parameter;  ///< whose marginal it is
   double bound;                   ///< in the unit of the parameter
 };
-/// The ends at which the prior or the limit of continuous motion cuts the posterior off: its density there is more than a
-/// tenth of the largest.
+/// The ends at which the prior or the limit of continuous motion cuts the posterior off: the density there
+/// exceeds a tenth of its maximum.
 [[nodiscard]] std::vector<CutOff> cut_offs(const estimation::ExactPosterior& posterior);
 
-/// A measured quantity and what is predicted for it.
+/// A measured quantity and its prediction.
 struct MeasurementPrediction {
-  double observed;  ///< the phase as the turn closest to the median, deg; the nominal frequency ratio
-  estimation::PredictiveBand band;  ///< from all measurements
-  double probability;               ///< of less than what was observed, from all measurements
-  double left_out;                  ///< the same from all the others; NaN where there are none
+  double observed;  ///< phase, turned to lie closest to the median, deg; or nominal frequency ratio
+  estimation::PredictiveBand band;  ///< predicted from all measurements
+  double probability;               ///< P(new value < observed), from all measurements
+  double left_out;                  ///< the same from all other measurements; NaN where there are none
 };
 
-/// A row of measurements.
+/// Predictions for one row of measurements.
 struct RowPrediction {
-  MeasurementPrediction phase;  ///< at the measured frequency ratio
-  MeasurementPrediction ratio;  ///< at the driving frequency
+  MeasurementPrediction phase;  ///< phase at the measured frequency ratio
+  MeasurementPrediction ratio;  ///< nominal ratio at the driving frequency
 };
 
-/// The posterior of measurements.
+/// Function that returns the posterior given measurements.
 using PosteriorOf = std::function<estimation::ExactPosterior(const friction::Observations&)>;
 
-/// Predictions of all rows: from draws of their posterior, and from the posterior of all rows but the one, which is computed
-/// anew.
-/// \param draws  of the posterior of all rows, not empty
+/// Predictions of all rows: from draws of the posterior given all rows, and from the posterior given all
+/// rows but the predicted one, which is computed anew.
+/// \param draws  draws from the posterior given all rows, not empty
 /// \throws as posterior_of and estimation::phase_band
 [[nodiscard]] std::vector<RowPrediction> predict_rows(const friction::Observations& measured,
                                                       const std::vector<estimation::PredictiveDraw>& draws,
@@ -64,13 +65,13 @@ using PosteriorOf = std::function<estimation::ExactPosterior(const friction::Obs
                                                       const friction::Physics& physics,
                                                       const PredictiveDrawing& drawing);
 
-/// How many measurements lie in the central 95 % of what is predicted for them.
+/// How many measurements lie in the central 95 % of their predictive distributions.
 struct Coverage {
-  long inside;         ///< of them
-  long measurements;   ///< that have a prediction
-  double probability;  ///< that so few or fewer of as many independent ones do, by the binomial distribution
+  long inside;         ///< measurements inside
+  long measurements;   ///< measurements that have a prediction
+  double probability;  ///< binomial probability that at most `inside` of `measurements` independent ones do
 };
-/// \param probabilities  as MeasurementPrediction has them; NaN for none
+/// \param probabilities  as in MeasurementPrediction; NaN for measurements without a prediction
 [[nodiscard]] Coverage coverage_95(const std::vector<double>& probabilities);
 
 }  // namespace replication

@@ -1,5 +1,5 @@
 /// \file
-/// The printed Tables 3 and 4 against replicated studies.
+/// The printed Tables 3 and 4 compared with replicated studies.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ using statistics::test_tables;
 using statistics::test_two_tables;
 using statistics::total_of;
 
-/// Number of an area: which parameter's.
+/// A printed area of Table 3.
 struct PrintedArea {
   std::string sampler;    ///< whose column
   std::size_t parameter;  ///< index into StudySummary::areas
-  std::string printed;    ///< as printed, for its rounding
+  std::string printed;    ///< as printed; its digits give the rounding
 };
 
 /// A printed column of Table 4.
@@ -35,23 +35,25 @@ struct PrintedCounts {
   Counts counts;        ///< number of runs by number of iterations
 };
 
-/// Which studies are the null distribution of a sampler's printed numbers.
+/// The studies that form the null distribution of a sampler's printed numbers.
 enum class Null {
-  own_studies,  ///< those of the sampler alone
-  all_studies   ///< those of both samplers, where they are one algorithm: twice the draws
+  own_studies,  ///< studies of the sampler alone
+  all_studies   ///< studies of both samplers, if they are one algorithm: twice the draws
 };
 
-/// Margin within which two samplers are equivalent in the ratio of their median areas; the printed effect is a factor of 2.1.
+/// Margin within which two samplers count as equivalent in the ratio of their median areas; the printed
+/// effect is a factor of 2.1.
 constexpr double area_margin = 0.10;
 /// Margin of the ratio of mean iterations, a quarter of the printed effect of 2.02 % (10.08 against 9.88 iterations).
 constexpr double iteration_margin = 0.005;
 
-/// A printed number in its null distribution. No p-value is adjusted: an adjustment would make compatibility easier.
+/// A printed number in its null distribution. No p-value is adjusted: an adjustment would make compatibility
+/// easier.
 struct CellVerdict {
   std::string sampler;                               ///< as printed
   std::size_t parameter = 0;                         ///< index into StudySummary::areas
   double printed = 0.0;                              ///< the area as printed
-  double median = 0.0;                               ///< of the null studies
+  double median = 0.0;                               ///< median of the null studies
   Interval95 interval{};                             ///< central 95 % of the null studies
   double percentile = 0.0;                           ///< of the printed area among the null studies
   PValue p;                                          ///< two-sided
@@ -61,36 +63,37 @@ struct CellVerdict {
 /// Comparison of two samplers in one quantity.
 struct ContrastVerdict {
   double printed = 0.0;      ///< ratio of areas, or two-sample deviance of counts
-  Interval95 interval{};     ///< central 95 % of the null
-  PValue p;                  ///< of the printed contrast if both samplers are one algorithm
+  Interval95 interval{};     ///< central 95 % of the null distribution
+  PValue p;                  ///< p-value of the printed contrast if both samplers are one algorithm
   Equivalence replicated{};  ///< second sampler over first: medians of areas, or means of iterations
 };
 
-/// Each printed area against replicated studies.
+/// Judges each printed area against replicated studies.
 /// \throws errors::InvalidValue if there is no study of a sampler.
 [[nodiscard]] std::vector<CellVerdict> judge_areas(const std::vector<StudySummary>& studies,
                                                    const std::vector<PrintedArea>& areas, Null null);
 
-/// Each printed column of Table 4 on its own, and then all columns together, by the deviance from the probabilities of the replicated
-/// runs: columns.size() + 1 tests.
+/// Tests each printed column of Table 4 on its own, and then all columns together, by the deviance from the
+/// probabilities of the replicated runs: columns.size() + 1 tests.
 /// \throws errors::InvalidValue if there is no study of a sampler.
 [[nodiscard]] std::vector<DevianceTest> judge_counts(const std::vector<StudySummary>& studies,
                                                      const std::vector<PrintedCounts>& columns, Null null,
                                                      const TableDraws& draws = {});
 
-/// What the paper prints of one sampler: a column of Tables 3 and 4.
+/// The numbers that the paper prints for one sampler: a column of Tables 3 and 4.
 struct PrintedColumn {
   std::string sampler;        ///< whose column
-  std::vector<double> areas;  ///< of friction force (N) and natural frequency (Hz), in this order
+  std::vector<double> areas;  ///< areas of friction force (N) and natural frequency (Hz), in this order
   Counts counts;              ///< number of runs by number of iterations
 };
 
 /// The printed numbers by column, in the order of the counts.
-/// \throws errors::InvalidValue unless each has both areas.
+/// \throws errors::InvalidValue unless each sampler has both areas.
 [[nodiscard]] std::vector<PrintedColumn> printed_columns(const std::vector<PrintedArea>& areas,
                                                          const std::vector<PrintedCounts>& counts);
 
-/// Absolute predictive p-values of the printed tables under what the studies are of: see predictive_p_of_pair.
+/// Absolute predictive p-values of the printed tables under the setting of the studies: see
+/// predictive_p_of_pair.
 struct JointTests {
   PValue areas;                 ///< all printed areas
   PValue counts;                ///< both columns of Table 4
@@ -98,41 +101,44 @@ struct JointTests {
   PValue all;                   ///< all printed numbers
 };
 
-/// \param null  all_studies: one sampler made both columns; own_studies: each its own
-/// \throws errors::InvalidValue unless there are two columns, and at least 3 studies of each.
+/// \param null  all_studies: one sampler made both columns; own_studies: each sampler made its own column
+/// \throws errors::InvalidValue unless there are two columns, and at least 3 studies of each sampler.
 [[nodiscard]] JointTests test_jointly(const std::vector<StudySummary>& studies,
                                       const std::vector<PrintedColumn>& printed, Null null);
 
-/// all_studies if the replicated studies of the two samplers are equivalent (the 95 % intervals of the ratios lie within the
-/// margins: a test at 2.5 % a side) in the areas of the first two parameters and in the number of iterations; else
-/// own_studies. For the paper's criteria the reason to pool is algebra: N_eff = N/2 is CoV = 1 with the population standard
-/// deviation, and with that of N - 1 it is CoV = 1 at N_eff = 500.25 of 1000. This function refuses studies for which
-/// that does not hold, N/4 for instance.
+/// Returns all_studies if the replicated studies of the two samplers are equivalent (the 95 % intervals of
+/// the ratios lie within the margins: a test at 2.5 % per side) in the areas of the first two parameters and
+/// in the number of iterations; otherwise own_studies. For the paper's criteria pooling is justified by
+/// algebra: N_eff = N/2 is CoV = 1 with the population standard deviation, and with the N - 1 standard
+/// deviation CoV = 1 is N_eff = 500.25 of 1000. This function does not pool studies for which that does not
+/// hold, such as N/4.
 /// \throws errors::InvalidValue if there is no study of a sampler.
 [[nodiscard]] Null null_of(const std::vector<StudySummary>& studies, const std::string& first,
                            const std::string& second, std::uint64_t seed);
 
-/// Ratio of the areas of two samplers, second over first, against the null that they are one algorithm: all pairs of
-/// studies, of either sampler, are equally likely.
+/// Ratio of the areas of two samplers, second over first, against the null hypothesis that they are one
+/// algorithm: all pairs of studies, of either sampler, are equally likely.
 [[nodiscard]] ContrastVerdict contrast_areas(const std::vector<StudySummary>& studies,
                                              const std::string& first, const std::string& second,
                                              std::size_t parameter, double printed_ratio, std::uint64_t seed);
 
-/// Iteration counts of two samplers: two-sample deviance against that of two tables of one algorithm, whose
-/// probabilities come from the runs of both; and equivalence of the mean numbers of iterations of all runs.
+/// Iteration counts of two samplers: the two-sample deviance against the deviance of two tables of one
+/// algorithm, whose probabilities come from the runs of both samplers; and equivalence of the mean numbers
+/// of iterations of all runs.
 [[nodiscard]] ContrastVerdict contrast_iterations(const std::vector<StudySummary>& studies,
                                                   const Counts& first_printed, const Counts& second_printed,
                                                   const std::string& first, const std::string& second,
                                                   const TableDraws& draws = {});
 
-/// C2 and C4 together: probability that two studies of one sampler differ as much as printed in the ratio of their friction-force
-/// areas and in the deviance of their counts. Fisher's product of the two upper shares, calibrated against the same pairs of studies.
-/// \param studies  of the one sampler, at least two; the first 3000 count
-/// \param ratio  of the printed areas, either way round
+/// C2 and C4 together: probability that two studies of one sampler differ as much as printed in the ratio of
+/// their friction-force areas and in the deviance of their counts. The statistic is Fisher's product of the
+/// two upper shares, calibrated against the same pairs of studies.
+/// \param studies  studies of the one sampler, at least two; only the first 3000 are used
+/// \param ratio  ratio of the printed areas, either way round
 [[nodiscard]] PValue combined_contrast(const std::vector<StudySummary>& studies, double ratio,
                                        const Counts& first, const Counts& second);
 
-/// log of the predictive density of all printed columns: see Prediction.
+/// Logarithm of the predictive density of all printed columns: see Prediction.
 /// \throws as test_jointly, but for any number of columns.
 [[nodiscard]] double log_likelihood_of_tables(const std::vector<StudySummary>& studies,
                                               const std::vector<PrintedColumn>& printed, Null null);
@@ -142,19 +148,19 @@ struct JointTests {
 [[nodiscard]] std::vector<StudySummary> studies_of(const std::vector<StudySummary>& studies,
                                                    const std::string& sampler);
 
-/// How many of a sampler's studies have so many runs of so many iterations.
+/// The share of a sampler's studies in which a given number of runs took a given number of iterations.
 struct CountShare {
-  std::int64_t iterations = 0;    ///< that are printed or that a study has
-  std::int64_t runs = 0;          ///< of a study
-  double share_of_studies = 0.0;  ///< with just so many runs
-  std::int64_t printed = 0;       ///< runs that the printed column has
+  std::int64_t iterations = 0;    ///< number of iterations, printed or in a study
+  std::int64_t runs = 0;          ///< number of runs in a study
+  double share_of_studies = 0.0;  ///< share of studies with exactly that many runs
+  std::int64_t printed = 0;       ///< runs in the printed column
 };
-/// Ascending by iterations, then runs; no row for a share of 0.
+/// Shares in ascending order of iterations, then runs; there is no row for a share of 0.
 /// \throws as studies_of.
 [[nodiscard]] std::vector<CountShare> count_shares(const std::vector<StudySummary>& studies,
                                                    const PrintedCounts& printed);
 
-/// The studies that are the null distribution of a sampler's numbers.
+/// The studies that form the null distribution of a sampler's numbers.
 /// \throws as studies_of.
 [[nodiscard]] std::vector<StudySummary> null_studies(const std::vector<StudySummary>& studies,
                                                      const std::string& sampler, Null null);

@@ -1,6 +1,6 @@
 /// \file
 /// Readings of the paper. Its text, its authors' published scripts and correct mathematics differ in places;
-/// each difference is one option of a library, and a reading is a set of options.
+/// each difference is one option of the library, and a reading is a set of options.
 #pragma once
 
 #include <array>
@@ -17,15 +17,14 @@ namespace replication {
 
 /// A complete set of options: sampler, physics, likelihood and prior.
 struct Reading {
-  tmcmc::Options
-      sampler;  ///< all but kind and target of the criterion, which belong to the samplers compared
-  friction::Physics physics;               ///< of the phase model: Eqs. 18 and 21
-  double infeasible_log_likelihood = 0.0;  ///< where the motion is not continuous
+  tmcmc::Options sampler;  ///< all options but kind and target of the criterion, set by the samplers compared
+  friction::Physics physics;               ///< rules of the phase model: Eqs. 18 and 21
+  double infeasible_log_likelihood = 0.0;  ///< value where the motion is not continuous
   /// Lower prior bound of the natural frequency, Hz, where it differs from Table 2.
   std::optional<double> natural_frequency_lower_hz;
 };
 
-/// The readings there are.
+/// The available readings.
 enum class ReadingName {
   as_published,  ///< the authors' published scripts, with N_eff = N/2 for TMCMC-II: the default of the
                  ///< reproduction
@@ -36,23 +35,24 @@ constexpr std::array<std::string_view, 3> enumerator_names(std::type_identity<Re
   return {"as_published", "as_worded", "corrected"};
 }
 
-/// The options of a reading, as the README tabulates them.
+/// The options of a reading, as listed in the README.
 [[nodiscard]] Reading reading(ReadingName name);
 
-/// The sampling problem of a reading: likelihood of the observations and prior.
+/// The sampling problem of a reading: the likelihood of the observations and the prior.
 /// \throws errors::InvalidValue for invalid observations or physics.
 [[nodiscard]] tmcmc::Problem problem(const Reading& reading, const friction::Observations& observations,
                                      const tmcmc::BoxPrior& prior);
 
-/// The same rig with the limit and the phase of the corrected reading.
+/// The same physics with the limit and the phase of the corrected reading.
 [[nodiscard]] friction::Physics with_exact_rules(friction::Physics physics);
 
-/// \throws errors::InvalidValue naming the readings there are.
+/// The reading with a name.
+/// \throws errors::InvalidValue naming the available readings.
 [[nodiscard]] ReadingName parse_reading(const std::string& name);
 
 /// One of the samplers that a study compares: a name and complete options.
 struct Arm {
-  std::string name;        ///< as tables and files have it
+  std::string name;        ///< as in tables and files
   tmcmc::Options options;  ///< complete, criterion included
 };
 

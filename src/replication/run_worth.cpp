@@ -35,7 +35,7 @@ std::vector<double> ranks(std::span<const double> x) {
   return rank;
 }
 
-/// Mean with the standard error of independent values.
+/// Mean of independent values, with its standard error.
 Estimate mean_of(const std::vector<double>& values) {
   if (values.size() < 2) {
     throw errors::InvalidValue("studies", values.size(), "at least 2");

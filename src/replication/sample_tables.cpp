@@ -18,7 +18,7 @@ namespace {
 constexpr double most_ordinary_number = 1e100;  // sums and squares do not overflow
 const std::string weight_column = "weight";
 
-/// In each run of a sampler a weight above 0.
+/// Weights by run of a sampler; each run must have a weight above 0.
 std::vector<std::vector<std::vector<double>>> weights_of(
     const io::CsvTable& table, const std::vector<std::map<long, std::size_t>>& runs,
     const std::vector<std::pair<std::size_t, std::size_t>>& place) {

@@ -16,7 +16,8 @@ using detail::by_rows;
 using detail::log_normal_density;
 using Panel = boost::math::quadrature::gauss<double, 30>;
 
-// While the settings of the independent draws were chosen, or a cause of their warnings was sought.
+// Rigs that were seen while the settings of the independent draws were chosen, or the cause of their
+// warnings was investigated.
 constexpr std::array rigs_seen{1, 2, 3, 10, 14, 20};
 constexpr double frame_mass_1 = 16.5e3;       // kg
 constexpr double frame_mass_2 = 16.1e3;       // kg
@@ -38,7 +39,8 @@ double integral(Function function, double low, double high, int panels) {
   return sum;
 }
 
-/// Squares of the frequencies of a frame whose stiffnesses are theta times the nominal one, over the measured squares.
+/// Squares of the frequencies of a frame whose stiffnesses are theta times the nominal one, divided by the
+/// measured squares.
 struct SquaredRatios {
   double first;
   double second;
@@ -49,8 +51,9 @@ SquaredRatios squared_ratios(const double* theta) {
   return {square(f.first / first_frequency), square(f.second / second_frequency)};
 }
 
-/// Area of theta_1 and theta_2 per area of the squared ratios, at one of the two solutions: these have the same product and
-/// the same sum u + v of u = m_2 k_1 and v = (m_1 + m_2) k_2, so that u and v change places.
+/// Area of theta_1 and theta_2 per area of the squared ratios, at one of the two solutions: the solutions
+/// have the same product and the same sum u + v of u = m_2 k_1 and v = (m_1 + m_2) k_2, so that u and v are
+/// exchanged.
 double area_per_squared_ratios(double first, double second) {
   constexpr double two_pi = boost::math::constants::two_pi<double>();
   const double measured_1 = square(two_pi * first_frequency);
@@ -84,7 +87,7 @@ std::function<std::size_t(const Eigen::Ref<const Eigen::RowVectorXd>&)> side_of_
   };
 }
 
-/// Known errors of 1 %, stiffnesses of up to a thousand times the nominal one.
+/// Frame with known errors of 1 %, and stiffnesses of up to a thousand times the nominal one.
 BenchmarkProblem frame_with_wide_priors() {
   constexpr double largest = 1000.0;
   constexpr double error = 0.01;
@@ -126,7 +129,8 @@ BenchmarkProblem frame_with_precise_data() {
   for (int k = 0; k < repetitions; ++k) {
     squares += square(measured_1[k] - mean.first) + square(measured_2[k] - mean.second);
   }
-  // At a given noise level the squared ratios are normal about their means, times what the scatter of the measurements says.
+  // At a given noise level the squared ratios are normal about their means, times a factor for the scatter
+  // of the measurements.
   const double total = integral(
       [=](double log_noise) {
         const double noise = std::exp(log_noise);

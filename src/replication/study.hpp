@@ -1,5 +1,5 @@
 /// \file
-/// A study: R independent runs of each sampler on one problem, and what the paper reports of them.
+/// A study: R independent runs of each sampler on one problem, and the statistics that the paper reports.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ using statistics::moments;
 
 /// Size of a study and its random streams.
 struct StudyOptions {
-  tmcmc::Index runs = 50;   ///< R, of each sampler (Section 4 of the paper)
-  std::uint64_t seed = 1;   ///< of the random streams
+  tmcmc::Index runs = 50;   ///< R, runs per sampler (Section 4 of the paper)
+  std::uint64_t seed = 1;   ///< seed of the random streams
   std::uint32_t study = 0;  ///< number of the study among its replications
-  int threads = 1;          ///< over the runs
+  int threads = 1;          ///< threads over the runs
 
   /// \throws errors::InvalidValue naming field, value and constraint.
   void validate() const;
@@ -26,19 +26,19 @@ struct StudyOptions {
 
 /// One run: final samples, records of the stages, and moments.
 struct Run {
-  tmcmc::Result result;                ///< as the sampler returned it; samples can be weighted
+  tmcmc::Result result;                ///< as the sampler returned it; samples may be weighted
   Eigen::VectorXd mean;                ///< of the final samples, one entry per parameter
   Eigen::VectorXd standard_deviation;  ///< of the final samples (N - 1)
 
-  /// Number of stages: what Table 4 counts.
+  /// Number of stages, which Table 4 counts.
   [[nodiscard]] tmcmc::Index iterations() const { return static_cast<tmcmc::Index>(result.stages.size()); }
 };
 
 /// Called once after each run, possibly from several threads at a time.
 using RunObserver = std::function<void()>;
 
-/// One run of a study: `index` of the stream (seed, study, arm_index, index).
-/// \param observer  of the run's populations, see tmcmc::run
+/// One run of a study, with the random stream (seed, study, arm_index, index).
+/// \param observer  observer of the run's populations, see tmcmc::run
 /// \throws as run_arm.
 [[nodiscard]] Run run_one(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
                           const StudyOptions& options, tmcmc::Index index,
@@ -50,7 +50,7 @@ using RunObserver = std::function<void()>;
                                        const StudyOptions& options, const RunObserver& observer = {});
 
 /// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry per parameter.
-/// \param threads  over the parameters; the areas do not depend on it
+/// \param threads  threads over the parameters; the areas do not depend on the number
 /// \throws errors::InvalidValue if there is no run.
 [[nodiscard]] Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads = 1);
 

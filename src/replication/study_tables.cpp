@@ -28,7 +28,7 @@ std::string without_plus_and_spaces(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// \throws io::InputError unless every study has each sampler of the file once.
+/// \throws io::InputError unless every study has each sampler of the file exactly once.
 void require_same_samplers(const io::CsvTable& table, const std::vector<long>& studies,
                            const std::vector<std::string>& samplers) {
   std::vector<std::pair<long, std::string_view>> pairs;

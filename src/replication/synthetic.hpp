@@ -10,7 +10,7 @@
 
 namespace replication {
 
-/// Truth of synthetic data; the defaults are the values that the paper states.
+/// Truth of synthetic data; the defaults are the values stated in the paper.
 struct Truth {
   double friction_force_n = 1.086;      ///< F_mu, N
   double natural_frequency_hz = 3.086;  ///< omega_n, Hz
@@ -21,8 +21,9 @@ struct Truth {
 /// The nominal frequency ratios of Table 1: k/14 for odd k = 9 ... 27, to three decimals.
 [[nodiscard]] std::vector<double> nominal_ratios();
 
-/// r = r_nom + e_r, omega_b = r omega_n, phase = M_phase(r, F_mu) + e with Normal errors. Row i uses draw i
-/// of the seed. A phase beyond a turn is reduced to the same angle from -180 to 180 deg.
+/// Synthetic observations r = r_nom + e_r, omega_b = r omega_n, phase = M_phase(r, F_mu) + e with Normal
+/// errors. Row i uses draw i of the seed. A phase beyond one turn is reduced to the same angle from -180 to
+/// 180 deg.
 /// \throws errors::InvalidValue for a truth out of range, or where a drawn ratio has no continuous motion.
 [[nodiscard]] friction::Observations generate_observations(const Truth& truth,
                                                            const std::vector<double>& nominal_ratio,

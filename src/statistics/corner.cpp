@@ -20,7 +20,7 @@ double weight_of(std::span<const double> weights, std::size_t i) {
   return weights.empty() ? 1.0 : weights[i];
 }
 
-/// Sum of the weights, which it checks.
+/// Sum of the weights, after checking them.
 double total_weight(std::span<const double> values, std::span<const double> weights) {
   require(!values.empty(), "values", 0.0, "at least one value");
   require(weights.empty() || weights.size() == values.size(), "weights", static_cast<double>(weights.size()),
@@ -45,7 +45,7 @@ void require_grid(const Range& range, long bins) {
   require(bins >= 1, "bins", static_cast<double>(bins), "at least one");
 }
 
-/// Bin of a value, or -1; the upper end belongs to the last bin.
+/// Index of the bin of a value, or -1; the upper end belongs to the last bin.
 long bin_of(double value, const Range& range, long bins) {
   if (!(value >= range.low && value <= range.high)) {
     return -1;

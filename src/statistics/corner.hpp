@@ -7,29 +7,32 @@
 
 namespace statistics {
 
-/// Where a panel begins and ends, in the unit of the parameter.
+/// Ends of a panel, in the unit of the parameter.
 struct Range {
   double low;   ///< less than high
-  double high;  ///< finite, as low is
+  double high;  ///< both ends are finite
 };
 
-/// Quantile of weighted values: the smallest of them with at least the share p of the weight at or below it.
-/// \param weights  one a value, not negative, not all zero; empty for equal weights
-/// \throws errors::InvalidValue if there is no value, or for weights that are invalid.
+/// Quantile of weighted values: the smallest value with at least the share p of the weight at or below it.
+/// \param weights  one per value, not negative, not all zero; empty for equal weights
+/// \throws errors::InvalidValue if there is no value, or if the weights are invalid.
 [[nodiscard]] double weighted_quantile(std::span<const double> values, std::span<const double> weights,
                                        double p);
 
-/// All but a thousandth of the weight, and a twentieth of its width beyond on each side, but not beyond the smallest and the
-/// largest value. Around a value that all share, a width of a hundredth of it, or of 1 around 0.
+/// The range that holds all but a thousandth of the weight, extended by a twentieth of its width on each
+/// side, but not beyond the smallest and the largest value. If all values are equal, the range around the
+/// value has a width of a hundredth of it, or of 1 around 0.
 /// \throws as weighted_quantile
 [[nodiscard]] Range panel_range(std::span<const double> values, std::span<const double> weights);
 
-/// Distance between the tics of a panel: 1, 2 or 5 times a power of ten, whichever divides the range best into three.
+/// Distance between the tick marks of a panel: 1, 2 or 5 times a power of ten, whichever comes closest to
+/// dividing the range into three.
 /// \throws errors::InvalidValue for a range that is not finite or has no width
 [[nodiscard]] double tick_spacing(const Range& range);
 
-/// Probability density in each of equal bins over the range, of all the weight, also what lies outside.
-/// \throws as weighted_quantile; for a range without width or without bins
+/// Probability density in each of equal bins over the range, normalised by all the weight, including the
+/// weight outside the range.
+/// \throws as weighted_quantile; also for a range without width or without bins
 [[nodiscard]] std::vector<double> marginal_density(std::span<const double> values,
                                                    std::span<const double> weights, const Range& range,
                                                    long bins);
@@ -37,8 +40,8 @@ struct Range {
 /// A pair of parameters on a grid of bins times bins cells, x running faster.
 struct PairDensity {
   std::vector<double> density;  ///< per unit of x times unit of y
-  /// Probability of all cells at least as dense as this one, this one included: the cells with a level up to p
-  /// are the smallest region with the probability p. 1 of empty cells.
+  /// Probability of all cells at least as dense as this one, this one included: the cells with a level up to
+  /// p form the smallest region with probability p. The level of empty cells is 1.
   std::vector<double> level;
 };
 

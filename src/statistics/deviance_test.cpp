@@ -73,7 +73,8 @@ struct Multinomial {
   }
 };
 
-/// Tables that were drawn or printed: what the deviance and the probability need to know of them.
+/// Tables that were drawn or printed, reduced to the sums from which the deviance and the probability are
+/// computed.
 struct Drawn {
   std::vector<Row> total;  // of the tables of each source
   double fixed = 0.0;      // the part of the deviance that no probability enters
@@ -83,7 +84,8 @@ enum class Against { given_probabilities, each_other };
 
 class DevianceNull {
  public:
-  /// A source is what tables are drawn from; either each table has its own, or all have the same.
+  /// A source is the distribution from which tables are drawn; either each table has its own source, or all
+  /// share one.
   DevianceNull(const std::vector<Counts>& printed, const std::vector<std::vector<Counts>>& replicated,
                Against against, const TableDraws& options)
       : options_(options), against_(against) {
@@ -123,10 +125,10 @@ class DevianceNull {
   }
 
  private:
-  /// Equal tables must tie although their sums round differently.
+  /// Equal tables must tie even if their sums round differently.
   static double tolerance(double statistic) { return 1e-9 * (1.0 + std::fabs(statistic)); }
 
-  /// The bootstrap of median_ratio_equivalence has arms 0 and 1.
+  /// The bootstrap of median_ratio_equivalence uses arms 0 and 1.
   [[nodiscard]] tmcmc::StreamKey stream() const { return {.seed = options_.seed, .arm = 2}; }
 
   [[nodiscard]] std::size_t source(std::size_t table) const { return runs_.size() == 1 ? 0 : table; }
@@ -154,7 +156,7 @@ class DevianceNull {
     }
   }
 
-  /// Tables that were drawn before count again: few differ.
+  /// Tables that have been drawn before are counted again: there are few distinct ones.
   void draw_tables() {
     std::map<std::vector<Row>, std::int64_t> frequency;
     std::vector<Row> tables(table_runs_.size());
@@ -202,7 +204,7 @@ class DevianceNull {
            (against_ == Against::each_other ? drawn.fixed : drawn.fixed - log_kernel(drawn, probabilities));
   }
 
-  /// The p-value under other probabilities: each table weighs as much more as they make it more likely.
+  /// The p-value under other probabilities: each table is weighted by the ratio of its probabilities.
   [[nodiscard]] double p_under(const std::vector<Multinomial>& probabilities) const {
     const double statistic = deviance_of(printed_, probabilities);
     double tail = 0.0;
@@ -216,7 +218,7 @@ class DevianceNull {
     return tail / all;
   }
 
-  /// p-values with the replicated runs drawn anew.
+  /// p-values with the replicated runs resampled.
   [[nodiscard]] std::vector<double> resampled() const {
     std::vector<double> p;
     for (int round = 1; round <= options_.resamples; ++round) {

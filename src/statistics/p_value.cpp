@@ -15,12 +15,12 @@ double tail_p(std::int64_t tail, std::size_t draws) {
   return static_cast<double>(tail + 1) / static_cast<double>(draws + 1);
 }
 
-/// Standard error of a tail share of independent draws.
+/// Standard error of a tail share estimated from independent draws.
 double binomial_error(double share, double draws) {
   return std::sqrt(share * (1.0 - share) / draws);
 }
 
-/// Median as sample_quantile has it, without sorting all.
+/// Median as in sample_quantile, without sorting all values.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -72,7 +72,8 @@ RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio) {
                                "at least two numbers in the sample, and all positive");
   }
   const auto n = static_cast<double>(sample.size());
-  // The share of the other numbers that are at least r times x_i, and of those that x_i is at least r times of.
+  // The shares of the other numbers that are at least r times x_i, and of the numbers of which x_i is at
+  // least r times the value.
   const auto shares = [&](double r) {
     std::vector<double> of_each;
     for (const double x : sample) {

@@ -13,7 +13,7 @@ using tmcmc::Index;
 
 namespace {
 
-/// Values of a parameter with their weights, ascending.
+/// Values of a parameter with their weights, in ascending order.
 std::vector<std::pair<double, double>> weighted_values(const std::vector<tmcmc::Result>& runs, Index j) {
   std::vector<std::pair<double, double>> values;
   for (const auto& run : runs) {
@@ -27,7 +27,7 @@ std::vector<std::pair<double, double>> weighted_values(const std::vector<tmcmc::
   return values;
 }
 
-/// Linear between the middles of the steps of the weighted distribution function.
+/// Quantile, linearly interpolated between the middles of the steps of the weighted distribution function.
 double quantile(const std::vector<std::pair<double, double>>& values, double p) {
   double below = 0.0, last_level = 0.0, last = values.front().first;
   for (const auto& [x, weight] : values) {

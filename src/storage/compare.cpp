@@ -13,7 +13,7 @@ namespace storage {
 
 namespace {
 
-/// The posterior of a file that is read.
+/// The posterior of a file opened for reading.
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path) : path_(path.string()) {
@@ -51,7 +51,7 @@ class OpenFile {
     return value;
   }
 
-  /// Empty if there is none.
+  /// A text attribute; empty if there is none.
   [[nodiscard]] std::string text(const char* attribute) const {
     nc_type type = NC_NAT;
     std::size_t length = 0;

@@ -53,7 +53,7 @@ class Group {
     check(nc_put_var_double(id_, variable, values), "variable " + name);
   }
 
-  /// Columns of one length along one dimension.
+  /// Writes columns of equal length along one dimension.
   void columns(const std::string& along, const std::vector<Column>& columns) {
     if (columns.empty()) {
       return;
@@ -75,7 +75,7 @@ class Group {
   int id_ = 0;
 };
 
-/// What was measured, as a CRC-64 of the numbers; empty if nothing is known of it.
+/// Checksum of the measurements, a CRC-64 of the numbers; empty if there are none.
 std::string checksum_of(const std::vector<Column>& observed) {
   std::string text;
   for (const auto& [name, values] : observed) {
@@ -146,7 +146,7 @@ void fill(int file, const InferenceData& data) {
   }
 }
 
-/// A file that is written in memory.
+/// A file written in memory.
 class MemoryFile {
  public:
   MemoryFile() { check(nc_create_mem("inference_data", NC_NETCDF4, 0, &id_), "file in memory"); }
@@ -161,7 +161,7 @@ class MemoryFile {
 
   [[nodiscard]] int id() const { return id_; }
 
-  /// Ends the file; its bytes live as long as this object.
+  /// Ends the file; its bytes are valid as long as this object.
   std::string_view finish() {
     check(nc_close_memio(std::exchange(id_, -1), &bytes_), "end of the file");
     return {static_cast<const char*>(bytes_.memory), bytes_.size};

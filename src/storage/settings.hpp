@@ -1,6 +1,6 @@
 /// \file
-/// What the numbers of a run depend on, as names and values: to tell one run from another, and to
-/// say where they differ.
+/// The settings on which the numbers of a run depend, as names and values: they distinguish runs, and show
+/// where two runs differ.
 #pragma once
 
 #include <string>
@@ -13,24 +13,24 @@
 
 namespace storage {
 
-/// All that the numbers of a run depend on.
+/// Everything on which the numbers of a run depend.
 struct RunDescription {
-  /// Threads, batch_rows and max_stages do not count.
+  /// Options of the sampler; threads, batch_rows and max_stages do not count.
   tmcmc::Options options;
-  /// Of the random streams.
+  /// Key of the random streams.
   tmcmc::StreamKey key;
-  /// Of the parameters.
+  /// Prior of the parameters.
   tmcmc::Prior prior;
-  /// One line of the caller's that names all else: the model, its data, their version, and a step
-  /// rule if one is used.
+  /// One line from the caller that identifies everything else: the model, its data, their version, and a
+  /// step rule if one is used.
   std::string model;
 };
 
-/// Name and value, the latter one line; numbers in digits that read back as the same double.
+/// Name and value; the value is one line, and numbers have enough digits to be read back as the same double.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// The options (tmcmc::sample_settings), seed, study, arm, run, prior.lower, prior.upper, the text of a prior that is no
-/// box, and model.
+/// The options (tmcmc::sample_settings), seed, study, arm, run, prior.lower, prior.upper, the text of a
+/// prior that is not a box, and model.
 /// \throws errors::InvalidValue if the model's description is not one line.
 [[nodiscard]] Settings settings(const RunDescription& run);
 

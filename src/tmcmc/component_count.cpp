@@ -1,4 +1,4 @@
-// The number of components of a mixture, by the log-density of points that it was not fitted to.
+// The number of components of a mixture, chosen by the log-density of held-out points.
 
 #include <algorithm>
 #include <limits>
@@ -43,7 +43,7 @@ Index best_count(const WeightedPoints& data, const MixtureFitOptions& options, c
     return 1;
   }
   const auto d = static_cast<double>(data.points.cols());
-  // Of few points the score is noisy, and there are chance gains in many coordinates.
+  // The score of few points is noisy, and in many coordinates there are chance gains.
   const double least_gain = std::max(options.gain_of_component, d / (weight_even + weight_odd));
   MixtureFitOptions few = options;
   few.most_iterations = (options.most_iterations + 1) / 2;  // are enough to compare

@@ -64,7 +64,7 @@ std::string of_stage(const char* what, const StageRecord& stage) {
   return what + (" of stage " + std::to_string(stage.stage));
 }
 
-/// The standard normal deviate that is exceeded as rarely as the t value.
+/// The standard normal deviate with the same tail probability as the t value.
 double normal_score(double t, double degrees_of_freedom) {
   constexpr double largest = 30.0;  // tail probabilities stay far above the smallest double
   const boost::math::students_t_distribution<double> student(degrees_of_freedom);
@@ -74,7 +74,7 @@ double normal_score(double t, double degrees_of_freedom) {
                        t);
 }
 
-/// Drift of the log-likelihood along the chains. Both bounds together are exceeded by chance in
+/// Checks for a drift of the log-likelihood along the chains. By chance both bounds together are exceeded in
 /// less than 1 % of runs.
 void check_equilibrium(const Result& result, const Options& options, Warnings& warnings) {
   constexpr double most_in_a_stage = 4.5;

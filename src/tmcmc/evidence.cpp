@@ -18,7 +18,7 @@ namespace {
 constexpr double smallest_sum = 1e-300;  // of the overlap of two populations
 constexpr double smallest_slope = 1e-3;  // of populations in the wrong order
 
-/// Logarithms of the weights, relative to the largest; all alike for a step of 0.
+/// Logarithms of the weights, relative to the largest; all equal for a step of 0.
 void log_weigh(ConstDoubles log_likelihood, double step, double largest, std::vector<double>& log_weights) {
   log_weights.resize(log_likelihood.size());
   std::transform(log_likelihood.begin(), log_likelihood.end(), log_weights.begin(),
@@ -37,7 +37,7 @@ struct LogisticSums {
   double slope;
 };
 
-/// Where a population has nothing in common with the other, both are the least number, as in the
+/// If a population has nothing in common with the other, both sums are set to the smallest number, as in the
 /// limit.
 PORTABLE_MATH_MULTIVERSION
 LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign, double centre) {
@@ -50,8 +50,8 @@ LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign
   return total > smallest_sum ? LogisticSums{total, slope} : LogisticSums{smallest_sum, smallest_sum};
 }
 
-/// log(m / (feasible - m)) below the least finite log-weight, the logistic sum over both
-/// populations is m or more.
+/// Lower limit of the centre: at log(m / (feasible - m)) below the smallest finite log-weight, the logistic
+/// sum over both populations is at least m.
 double least_centre(const std::vector<double>& before, const std::vector<double>& after) {
   double least = 0.0;
   double feasible = 0.0;
@@ -65,8 +65,8 @@ double least_centre(const std::vector<double>& before, const std::vector<double>
   return least - std::max(portable_math::log(m / (feasible - m)), 0.0);
 }
 
-/// Solution of the equation of the bridge: the centre of the logistic functions, which sum up to
-/// the same in both populations there.
+/// Solution of the bridge equation: the centre of the logistic functions at which their sums over both
+/// populations are equal.
 struct Bridge {
   double centre;
   double log_size_ratio;  ///< log(m / n); the log-ratio of the evidences is the centre plus this

@@ -1,5 +1,5 @@
 /// \file
-/// Which chain descends from which.
+/// Descent of the chains.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace tmcmc {
 
-/// Descent of the chains of a population. Population 0 is the prior, where each draw is a chain;
-/// population t is that after stage t.
+/// Descent of the chains of a population. Population 0 consists of the draws from the prior, each of which
+/// is a chain; population t is the population after stage t.
 struct Genealogy {
-  /// Row i of the last population belongs to chain i modulo this.
+  /// Number of chains: row i of the last population belongs to chain i modulo this number.
   Index chains = 0;
-  /// parents[t][c]: chain of population t from which chain c of population t + 1 started. One entry
-  /// a stage.
+  /// parents[t][c]: chain of population t from which chain c of population t + 1 started. One entry per
+  /// stage.
   std::vector<std::vector<Index>> parents;
 
   /// Entry [t][c]: chain of population t from which chain c of the last population descends.

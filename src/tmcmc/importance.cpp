@@ -135,7 +135,7 @@ double tempering_power(ConstDoubles log_weights, double target) {
   if (statistics.effective_sample_size(1.0) >= target) {
     return 1.0;
   }
-  // The effective size falls from n at 0 to less than the target at 1.
+  // The effective size falls from n at power 0 to less than the target at power 1.
   const auto excess = [&](double power) { return statistics.effective_sample_size(power) - target; };
   std::uintmax_t iterations = 60;
   return boost::math::tools::toms748_solve(excess, 0.0, 1.0,

@@ -28,7 +28,7 @@ ConstDoubles part(ConstDoubles x, Index begin, Index end) {
   return x.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
 }
 
-/// Of eight interleaved parts, so that compilers vectorise it.
+/// Sum of eight interleaved parts, so that compilers vectorise it.
 PORTABLE_MATH_MULTIVERSION
 double largest_of(const double* x, std::size_t n) {
   constexpr std::size_t lanes = portable_math::sum_lanes;
@@ -58,7 +58,7 @@ double largest(ConstDoubles x, int threads) {
       larger);
 }
 
-/// Fills the weights and returns their sum.
+/// Fills in the weights and returns their sum.
 PORTABLE_MATH_MULTIVERSION
 double weigh(const double* log_likelihood, std::size_t n, double shift, double step, double* weights) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -101,7 +101,7 @@ struct Spread {
   double squared_deviations;  // from the mean of these
 };
 
-/// Chan, Golub and LeVeque 1983: no cancellation, however small the spread.
+/// Method of Chan, Golub and LeVeque 1983: there is no cancellation, however small the spread.
 Spread merge(const Spread& a, const Spread& b) {
   if (a.count == 0.0 || b.count == 0.0) {
     return a.count == 0.0 ? b : a;

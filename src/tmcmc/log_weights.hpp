@@ -1,7 +1,7 @@
 /// \file
-/// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), from log-likelihoods; always
-/// shifted by the largest, so that a constant added to the log-likelihood changes nothing but the
-/// log-mean. Sums run over blocks of a fixed size; `threads` changes no result.
+/// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), computed from log-likelihoods. The
+/// log-weights are always shifted by the largest, so that a constant added to the log-likelihood changes
+/// only the log-mean. Sums run over blocks of a fixed size; `threads` changes no result.
 #pragma once
 
 #include <array>
@@ -14,19 +14,19 @@ namespace tmcmc {
 
 /// Divisor of the variance of the weights in Eq. 6.
 enum class Deviation {
-  /// N; then N_eff = N / (1 + CoV^2) exactly.
+  /// Divisor N; then N_eff = N / (1 + CoV^2) exactly.
   population,
-  /// N - 1, as the published scripts.
+  /// Divisor N - 1, as in the published scripts.
   sample
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Deviation>) {
   return {"population", "sample"};
 }
 
-/// Which samples a criterion counts.
+/// The samples that a criterion counts.
 enum class Counted {
   all,
-  /// Those whose log-likelihood is not minus infinity.
+  /// Samples whose log-likelihood is not minus infinity.
   feasible
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Counted>) {
@@ -41,17 +41,17 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Co
 /// \param step  dbeta > 0
 [[nodiscard]] double effective_sample_size(ConstDoubles log_likelihood, double step);
 
-/// Coefficient of variation std(w) / mean(w) (Eq. 6), computed from the deviations from the mean.
-/// NaN if no sample is counted; with Deviation::sample it needs two.
+/// Coefficient of variation std(w) / mean(w) (Eq. 6), computed from the deviations from the mean. NaN if no
+/// sample is counted, and with Deviation::sample if only one is.
 [[nodiscard]] double coefficient_of_variation(ConstDoubles log_likelihood, double step,
                                               Deviation deviation = Deviation::population,
                                               Counted counted = Counted::all);
 
-/// Both of the above for a search over many steps; each call evaluates the weights once and stores
-/// none.
+/// Both of the above for a search over many steps; each call evaluates the weights once and does not store
+/// them.
 class WeightStatistics {
  public:
-  /// \param log_likelihood  non-owning view; it must outlive this
+  /// \param log_likelihood  non-owning view, which must outlive this object
   explicit WeightStatistics(ConstDoubles log_likelihood, int threads = 1);
 
   /// Number of log-likelihoods that are not minus infinity.
@@ -79,13 +79,13 @@ class WeightStatistics {
 
 /// Sums of the weights of a step.
 struct WeightSums {
-  /// Of the weights relative to the largest.
+  /// Sum of the weights relative to the largest weight.
   double sum;
-  /// Of the weights themselves, see log_mean_weight.
+  /// Log-mean of the weights themselves, see log_mean_weight.
   double log_mean;
 };
 
-/// Fills the weights relative to the largest.
+/// Fills in the weights relative to the largest weight.
 /// \param weights  as long as log_likelihood
 WeightSums relative_weights(ConstDoubles log_likelihood, double step, std::span<double> weights,
                             int threads = 1);

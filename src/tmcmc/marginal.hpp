@@ -1,5 +1,5 @@
 /// \file
-/// Distribution of one parameter under the prior.
+/// Prior distribution of one parameter.
 #pragma once
 
 #include <cstddef>
@@ -15,43 +15,48 @@ namespace detail {
 class MarginalFamily;
 }
 
-/// The interval outside of which a density is zero.
+/// The interval outside which a density is zero.
 struct Support {
   double lower = -std::numeric_limits<double>::infinity();  ///< minus infinity if there is no lower bound
   double upper = std::numeric_limits<double>::infinity();   ///< infinity if there is no upper bound
 };
 
-/// A continuous distribution on the real line, as an immutable value: its name, its arguments and its support. The static
-/// functions make one each; distributions() lists them with the names of their arguments, for files and messages.
+/// A continuous distribution on the real line, as an immutable value: its name, its arguments and its
+/// support. Each static function makes one distribution; distributions() lists them with the names of their
+/// arguments, for files and messages.
 ///
-/// The quantiles of the uniform, log-uniform, normal, half-normal, log-normal, exponential, Weibull, Gumbel and triangular
-/// distributions have the same bits on every machine (portable()). Those of the truncated normal, gamma, inverse gamma, beta
-/// and Student t distributions come from Boost.Math, whose last bits follow the C library: they agree to about 1e-14, relative.
-/// \throws errors::InvalidValue from each of the static functions, with the argument as field, if it is not finite or not in the
-///         range that its comment states (what is called sd, rate, shape, scale or sigma must be positive).
+/// The quantiles of the uniform, log-uniform, normal, half-normal, log-normal, exponential, Weibull, Gumbel
+/// and triangular distributions are bit-identical on every machine (portable()). The quantiles of the
+/// truncated normal, gamma, inverse gamma, beta and Student t distributions come from Boost.Math, whose last
+/// bits depend on the C library: they agree to about 1e-14, relative.
+/// \throws errors::InvalidValue from each of the static functions, with the argument as field, if the
+///         argument is not finite or not in the range that the function's comment states (arguments named
+///         sd, rate, shape, scale or sigma must be positive).
 class Marginal {
  public:
   /// Density 1 / (upper - lower) on [lower, upper]; lower < upper, with doubles between them.
   [[nodiscard]] static Marginal uniform(double lower, double upper);
   /// Density proportional to 1 / x on [lower, upper]; 0 < lower < upper.
   [[nodiscard]] static Marginal log_uniform(double lower, double upper);
-  /// Mean and standard deviation.
+  /// The normal distribution with this mean and standard deviation.
   [[nodiscard]] static Marginal normal(double mean, double sd);
-  /// The normal distribution of mean and sd, cut to [lower, upper] and normalised there; either bound may be infinite.
+  /// The normal distribution with parameters mean and sd, truncated to [lower, upper] and normalised there;
+  /// either bound may be infinite.
   [[nodiscard]] static Marginal truncated_normal(double mean, double sd, double lower, double upper);
   /// |X| with X normal of mean zero and standard deviation sd.
   [[nodiscard]] static Marginal half_normal(double sd);
   /// exp(X) with X normal of mean mu and standard deviation sigma.
   [[nodiscard]] static Marginal log_normal(double mu, double sigma);
-  /// The log-normal distribution whose own mean (positive) and standard deviation are these.
+  /// The log-normal distribution that itself has this mean (positive) and standard deviation.
   [[nodiscard]] static Marginal log_normal_of_mean(double mean, double sd);
-  /// The log-normal distribution of this median (positive) and coefficient of variation, sd / mean.
+  /// The log-normal distribution with this median (positive) and coefficient of variation, sd / mean.
   [[nodiscard]] static Marginal log_normal_of_median(double median, double cov);
   /// Density rate exp(-rate x) for x >= 0.
   [[nodiscard]] static Marginal exponential(double rate);
   /// Density proportional to x^(shape - 1) exp(-rate x) for x > 0.
   [[nodiscard]] static Marginal gamma(double shape, double rate);
-  /// 1 / X with X of gamma(shape, rate = scale): density proportional to x^(-shape - 1) exp(-scale / x).
+  /// 1 / X with X distributed as gamma(shape, rate = scale): density proportional to x^(-shape - 1)
+  /// exp(-scale / x).
   [[nodiscard]] static Marginal inverse_gamma(double shape, double scale);
   /// Density proportional to (x - lower)^(alpha - 1) (upper - x)^(beta - 1) on (lower, upper); alpha and beta positive.
   [[nodiscard]] static Marginal beta(double alpha, double beta, double lower = 0.0, double upper = 1.0);
@@ -59,21 +64,21 @@ class Marginal {
   [[nodiscard]] static Marginal weibull(double shape, double scale);
   /// The distribution of largest values: P(X <= x) = exp(-exp(-(x - location) / scale)).
   [[nodiscard]] static Marginal gumbel(double location, double scale);
-  /// location + scale T with T of Student's distribution; degrees_of_freedom positive.
+  /// location + scale T with T of Student's t distribution; degrees_of_freedom positive.
   [[nodiscard]] static Marginal student_t(double degrees_of_freedom, double location, double scale);
   /// Density that rises linearly from lower to mode and falls to upper; lower <= mode <= upper, lower < upper.
   [[nodiscard]] static Marginal triangular(double lower, double mode, double upper);
 
-  /// Name of the distribution as distributions() has it.
+  /// Name of the distribution, as in distributions().
   [[nodiscard]] std::string_view distribution() const { return name_; }
   /// The arguments of the static function, in its order.
   [[nodiscard]] const std::vector<double>& arguments() const { return arguments_; }
   /// Name and arguments, such as "normal(3, 0.5)"; digits that read back as the same doubles.
   [[nodiscard]] std::string text() const;
 
-  /// Where the density is positive.
+  /// The interval on which the density is positive.
   [[nodiscard]] const Support& support() const { return support_; }
-  /// Whether draws have the same bits on every machine.
+  /// Whether draws are bit-identical on every machine.
   [[nodiscard]] bool portable() const;
   /// Whether the variance is finite.
   [[nodiscard]] bool has_variance() const;
@@ -82,20 +87,22 @@ class Marginal {
   [[nodiscard]] double log_density(double x) const;
   /// P(X <= x).
   [[nodiscard]] double cdf(double x) const;
-  /// P(X > x), exact to rounding where it is small.
+  /// P(X > x), exact up to rounding where it is small.
   [[nodiscard]] double complement(double x) const;
   /// x with P(X <= x) = p, p in [0, 1].
   [[nodiscard]] double quantile(double p) const;
-  /// Phi^-1(F(x)), with F the distribution function of the marginal and Phi that of the standard normal.
+  /// Phi^-1(F(x)), where F is the distribution function of the marginal and Phi that of the standard normal
+  /// distribution.
   [[nodiscard]] double normal_score(double x) const;
-  /// normal_score() of n points; infinite on a bound and NaN outside.
+  /// normal_score() of n points; infinite on a bound and NaN outside the support.
   void normal_scores(const double* x, std::size_t n, double* scores) const;
   /// F^-1(Phi(z)), the inverse of normal_score().
   [[nodiscard]] double from_normal(double z) const;
 
-  /// sum[i] += log f(x[i]) - log_constant(), i < n: the part of the log-density that x changes, the same bits on every machine.
+  /// sum[i] += log f(x[i]) - log_constant(), i < n: the part of the log-density that depends on x,
+  /// bit-identical on every machine.
   void add_log_kernel(const double* x, std::size_t n, double* sum) const;
-  /// What add_log_kernel() leaves out.
+  /// The constant part of the log-density, which add_log_kernel() leaves out.
   [[nodiscard]] double log_constant() const;
 
  private:

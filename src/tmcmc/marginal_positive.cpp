@@ -12,7 +12,7 @@ double log_gamma(double x) {
   return boost::math::lgamma(x, detail::Policy());
 }
 
-/// The exponential distribution is the one of shape 1.
+/// Weibull distribution; the exponential distribution has shape 1.
 struct Weibull final : detail::FamilyOf<Weibull> {
   Weibull(double k, double s) : shape(k), scale(s) {}
   [[nodiscard]] Support support() const override { return {0.0, infinity}; }

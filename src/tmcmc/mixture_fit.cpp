@@ -20,7 +20,7 @@ using detail::weighted_mean;
 
 namespace {
 
-/// unit = weight / density, of which a component takes its term.
+/// unit = weight / density; the part of a point assigned to a component is unit times the component's term.
 PORTABLE_MATH_MULTIVERSION
 void share_weights(Index rows, const double* weights, const double* sum, double* unit) {
   for (Index i = 0; i < rows; ++i) {
@@ -47,7 +47,7 @@ class Fit {
     mean_ = weighted_mean(data.points, as_span(data.weights), total_);
     covariance_ = proposal_covariance(data.points, as_span(data.weights), total_, 1.0, Centre::weighted_mean);
     for (Index j = 0; j < d_; ++j) {
-      // A coordinate without variance gets a little, as does each beyond its rounding.
+      // A coordinate without variance gets a small one, as does every other coordinate, beyond its rounding.
       covariance_(j, j) += 1e-6 * covariance_(j, j) + 1e-12;
     }
   }
@@ -87,7 +87,7 @@ class Fit {
       mixture.factors = {factor};
       return mixture;
     }
-    // Every so many points are enough to start from.
+    // A subset of points at equal steps is enough for the start.
     constexpr Index most_points = 500;
     const Index stride = (n_ + most_points - 1) / most_points;
     const Index n = (n_ + stride - 1) / stride;
@@ -145,7 +145,7 @@ class Fit {
   }
 
   /// E-step and the sums of the M-step.
-  /// \return  the mean log-density if it is asked for, else 0
+  /// \return  the mean log-density if it is requested, otherwise 0
   double expect(const StudentMixture& mixture, bool has_density) {
     const Index components = mixture.size();
     detail::MixtureTerms terms(mixture);
@@ -170,7 +170,7 @@ class Fit {
     return log_density_sum / total_;
   }
 
-  /// Scale matrix of one component from its sums.
+  /// Scale matrix of one component, computed from its sums.
   [[nodiscard]] Eigen::MatrixXd own_scale(const Moments& moments) const {
     Eigen::MatrixXd scale(d_, d_);
     for (Index j = 0; j < d_; ++j) {

@@ -26,7 +26,7 @@ void require(bool condition, const char* field, double value, const char* expect
   }
 }
 
-/// Weights with the sum 1.
+/// The weights, normalised to the sum 1.
 std::vector<double> normalised(const Population& points, std::span<const double> weights) {
   const Index n = points.rows();
   require(n >= 1 && points.cols() >= 1, "points", static_cast<double>(n), "at least one point");
@@ -72,7 +72,8 @@ bool is_before(const Population& points, Index a, Index b) {
   return false;
 }
 
-/// Which rows stand for all: at equal steps of the weight, equal rows once with the weight of all of them.
+/// Rows that represent all rows: at equal steps of the weight; equal rows occur once, with the weight of all
+/// of them.
 std::vector<std::pair<Index, double>> chosen_rows(const Population& white, const std::vector<double>& weights,
                                                   Index most) {
   std::vector<std::pair<Index, double>> rows;
@@ -115,7 +116,7 @@ std::vector<std::pair<Index, double>> chosen_rows(const Population& white, const
   return different;
 }
 
-/// Effective number of independent samples behind the share of a mode.
+/// Effective number of independent samples for the share of a mode.
 double effective_size(const std::vector<Index>& labels, Index mode, const std::vector<double>& weights,
                       double share, const Genealogy* genealogy) {
   if (genealogy == nullptr || genealogy->chains < 1) {
@@ -157,7 +158,7 @@ Mode mode_of(const Population& points, const std::vector<double>& weights, const
   return mode;
 }
 
-/// Label of each row: that of the nearest row of the graph.
+/// Label of each row, which is the label of the nearest row of the graph.
 std::vector<Index> labels_of_all(const Population& white, const std::vector<std::pair<Index, double>>& rows,
                                  const std::vector<Index>& parts) {
   std::vector<Index> labels(at(white.rows()), 0);

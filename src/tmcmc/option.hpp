@@ -1,18 +1,17 @@
 /// \file
-/// What is known of one option of the sampler: its name, the values that it takes, and what it is
-/// for.
+/// Description of one option of the sampler: its name, the values that it accepts, and its purpose.
 ///
-/// The headers that declare options hold a function `visit_options`, which calls a visitor with the
-/// description of each option and a pointer to its value. The pointer is null where the option has
-/// no meaning, such as the number of chains of waste-free under another move. option_table.hpp
-/// makes text of all that.
+/// The headers that declare options define a function `visit_options`, which calls a visitor with the
+/// description of each option and a pointer to its value. The pointer is null where the option has no
+/// meaning, such as the number of chains of waste-free under another move. option_table.hpp converts these
+/// descriptions to text.
 #pragma once
 
 #include <string_view>
 
 namespace tmcmc {
 
-/// The numbers that an option takes; for options with names instead, all of them.
+/// The numbers that an option accepts; for options with named values, all numbers.
 struct OptionRange {
   /// The smallest number.
   double least = 0.0;
@@ -22,7 +21,7 @@ struct OptionRange {
   bool above_least = false;
   /// Whether `most` itself is excluded.
   bool below_most = false;
-  /// Whether only whole numbers are taken.
+  /// Whether only whole numbers are accepted.
   bool whole = false;
 
   /// Whether a number is in the range; NaN never is.
@@ -44,31 +43,31 @@ constexpr OptionRange named() {
   return {};
 }
 
-/// Where options are listed together.
+/// Groups in which options are listed together.
 enum class OptionGroup {
-  /// The paper's sampler and the readings of it.
+  /// The paper's sampler and its readings.
   paper,
-  /// Better samplers.
+  /// Improved samplers.
   beyond_the_paper,
-  /// How a run is carried out, and what the programs set themselves.
+  /// Execution of a run, and settings that the programs make themselves.
   computation
 };
 
 /// Description of one option.
 struct OptionInfo {
-  /// With underscores: --move-steps is move_steps.
+  /// Name with underscores: --move-steps is move_steps.
   std::string_view name;
-  /// Where it is listed.
+  /// Group in which the option is listed.
   OptionGroup group;
-  /// Of its values.
+  /// Range of its values.
   OptionRange range;
-  /// One line.
+  /// Help text of one line.
   std::string_view help;
-  /// The option that gives it a meaning; empty: it always has one.
+  /// The option that gives this option a meaning; empty if it always has one.
   std::string_view needs_option = {};
-  /// The value which that option must have; empty: any but the default.
+  /// The value that needs_option must have; empty: any value but the default.
   std::string_view needs_value = {};
-  /// Whether the samples of a run depend on it.
+  /// Whether the samples of a run depend on this option.
   bool changes_samples = true;
 };
 

@@ -35,7 +35,7 @@ std::string text_of(const T& value) {
   }
 }
 
-/// The alternative of an index with its defaults, unless the variant holds it already.
+/// The alternative with an index, with its defaults unless the variant already holds this alternative.
 template <std::size_t i = 0, class... Alternatives>
 void hold(std::size_t index, std::variant<Alternatives...>& variant) {
   if constexpr (i < sizeof...(Alternatives)) {
@@ -46,7 +46,7 @@ void hold(std::size_t index, std::variant<Alternatives...>& variant) {
   }
 }
 
-/// Whether the text is a value in the range, which it then becomes.
+/// Whether the text is a value in the range; if so, the value is set to it.
 template <class T>
 bool assign(std::string_view text, const OptionRange& range, T& target) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -98,7 +98,7 @@ std::string in_words(const OptionRange& range) {
          digits(range.most) + (range.below_most ? ")" : "]");
 }
 
-/// Calls act(info, pointer) for the option of a name.
+/// Calls act(info, pointer) for the option with a given name.
 template <class AnyOptions, class Act>
 void with_option(AnyOptions& options, std::string_view name, Act act) {
   bool found = false;
@@ -118,7 +118,7 @@ std::string expected_of(const OptionRange& range) {
   return is_number<T> ? in_words(range) : names::one_of(values_of<T>());
 }
 
-/// The default of an option that has a meaning under another one alone.
+/// The default of an option that has a meaning only under another option.
 std::string preset_under(const OptionInfo& needed, const OptionText& option) {
   Options options;
   const bool any = option.needs_value.empty();

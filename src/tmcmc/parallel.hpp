@@ -13,9 +13,9 @@
 
 namespace tmcmc {
 
-/// Calls body(block, begin, end) for each block of at most block_size indices of [0, n), on up to
-/// `threads` threads. If some calls throw, the exception of the lowest block is rethrown after all
-/// that have begun have ended; blocks above one that threw need not begin.
+/// Calls body(block, begin, end) for each block of at most block_size indices of [0, n), on up to `threads`
+/// threads. If some calls throw, the exception of the lowest block is rethrown after all calls that have
+/// begun have ended; blocks above one that threw may never begin.
 template <class Body>
 void for_each_block(Index n, Index block_size, int threads, Body body) {
   const Index blocks = (n + block_size - 1) / block_size;
@@ -26,7 +26,7 @@ void for_each_block(Index n, Index block_size, int threads, Body body) {
     return;
   }
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(blocks));
-  std::atomic<Index> failed{blocks};  // one that threw
+  std::atomic<Index> failed{blocks};  // lowest block that threw
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (Index block = 0; block < blocks; ++block) {
     if (block > failed) continue;
@@ -47,8 +47,8 @@ void for_each_block(Index n, Index block_size, int threads, Body body) {
 /// Rows of one partial sum: few enough for the cache, and more than the runs of the paper have.
 constexpr Index reduction_rows = 4096;
 
-/// Combines body(begin, end) of each block of reduction_rows indices, in the order of the blocks:
-/// the result depends on n alone, not on the threads.
+/// Combines the results of body(begin, end) for each block of reduction_rows indices, in the order of the
+/// blocks: the result depends only on n, not on the number of threads.
 template <class Body, class Combine>
 auto reduce_blocks(Index n, int threads, Body body, Combine combine) {
   if (n <= reduction_rows) {
@@ -65,7 +65,7 @@ auto reduce_blocks(Index n, int threads, Body body, Combine combine) {
   return partial.front();
 }
 
-/// Rows that one call of a log-likelihood gets: an equal share for each thread, at most batch_rows
+/// Number of rows that one call of a log-likelihood gets: an equal share for each thread, at most batch_rows
 /// unless that is 0.
 [[nodiscard]] inline Index rows_per_call(Index n, int threads, Index batch_rows) {
   const Index share = (n + threads - 1) / threads;

@@ -1,5 +1,6 @@
 /// \file
-/// Prior density of the parameters: independent marginals, a Gaussian copula over them, or a density of the user's own.
+/// Prior density of the parameters: independent marginals, a Gaussian copula over them, or a user-defined
+/// density.
 #pragma once
 
 #include <memory>
@@ -16,46 +17,49 @@ namespace tmcmc {
 
 /// One parameter of a prior.
 struct Parameter {
-  std::string name;   ///< for headers and messages; not empty, different from the others
+  std::string name;   ///< for headers and messages; not empty, unique
   std::string unit;   ///< such as "N"; empty for none
   Marginal marginal;  ///< its distribution
 };
 
-/// A prior that the user writes, a hierarchical model for example.
+/// A user-defined prior, for example a hierarchical model.
 struct OwnPrior {
-  /// Name, unit and bounds of a parameter. The density is zero outside.
+  /// Name, unit and bounds of a parameter. The density is zero outside the bounds.
   struct OwnParameter {
     std::string name;       ///< as in Parameter
     std::string unit = {};  ///< as in Parameter
-    Support support = {};   ///< decides the unbounded coordinate; infinite bounds where there are none
+    Support support = {};   ///< determines the unbounded coordinate; infinite where there is no bound
   };
-  /// One line that tells it from other priors; it stands in checkpoints.
+  /// One line that distinguishes this prior from others; it is stored in checkpoints.
   std::string description;
-  /// d of them.
+  /// The d parameters.
   std::vector<OwnParameter> parameters;
-  /// Logarithm of the density, normalised (its integral is 1, or the evidence is off by it), for each row of `points`; minus
-  /// infinity where it is zero. Called with points inside the supports only, from several threads with Options::threads.
+  /// Logarithm of the density for each row of `points`, normalised (if its integral is not 1, the evidence
+  /// is wrong by that factor); minus infinity where the density is zero. Called only with points inside the
+  /// supports, and from several threads if Options::threads is larger than 1.
   LogLikelihood log_density;
-  /// Makes one draw from the same density out of as many numbers of the stream as it takes.
+  /// Makes one draw from the same density, using as many numbers of the stream as it needs.
   std::function<void(RandomStream& stream, Eigen::Ref<Eigen::VectorXd> point)> draw;
 };
 
-/// A normalised prior, as a value. Improper priors are refused: the evidence is the likelihood averaged over the prior, and
-/// there is no average over a density without a finite integral.
+/// A normalised prior, as a value. Improper priors are refused: the evidence is the likelihood averaged over
+/// the prior, and no average exists over a density without a finite integral.
 class Prior {
  public:
-  /// Uniform on the box lower < x < upper (Table 2), with the names "parameter 0" and so on.
-  /// \param lower,upper  one bound a parameter
+  /// Uniform prior on the box lower < x < upper (Table 2), with the names "parameter 0" and so on.
+  /// \param lower,upper  one bound per parameter
   /// \throws errors::InvalidValue unless both have the same positive length, and lower < upper with a finite
   ///         distance and at least one double between them.
   Prior(Eigen::VectorXd lower, Eigen::VectorXd upper);
 
-  /// Marginals by parameter, independent or with a Gaussian copula.
-  /// \throws errors::InvalidValue for no parameter, a name that is empty or stands twice, and as normal_score_correlation().
+  /// Prior with the given marginals, independent or with a Gaussian copula.
+  /// \throws errors::InvalidValue if there is no parameter, if a name is empty or repeated, and as
+  ///         normal_score_correlation().
   explicit Prior(std::vector<Parameter> parameters, const Correlation& correlation = {});
 
-  /// \throws errors::InvalidValue for no parameter, a name that is empty or stands twice, bounds without doubles between them, a
-  ///         description that is not one line, and a missing function.
+  /// User-defined prior.
+  /// \throws errors::InvalidValue if there is no parameter, if a name is empty or repeated, if there are no
+  ///         doubles between two bounds, if the description is not one line, or if a function is missing.
   explicit Prior(OwnPrior own);
 
   /// d, the number of parameters.
@@ -68,31 +72,33 @@ class Prior {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// Units of the parameters, d; empty for none.
   [[nodiscard]] const std::vector<std::string>& units() const { return units_; }
-  /// Marginals, d; none for a prior of the user's own.
+  /// Marginals, d; none for a user-defined prior.
   [[nodiscard]] const std::vector<Marginal>& marginals() const { return marginals_; }
   /// Whether the density is constant on the box of the supports.
   [[nodiscard]] bool is_box() const { return box_; }
   /// Whether the density is the product of the marginals.
   [[nodiscard]] bool is_independent() const { return own_ == nullptr && factor_.size() == 0; }
-  /// One line that tells the prior from others: names with their marginals and what else there is, or OwnPrior::description.
+  /// One line that distinguishes the prior from others: names with their marginals and any further
+  /// properties, or OwnPrior::description.
   [[nodiscard]] std::string text() const;
 
-  /// n independent draws, n x d, none on a bound. They do not depend on the threads. Marginals get quantiles of uniform numbers.
-  /// \throws SamplingError if a prior of the user's own draws a point outside its support
+  /// n independent draws, n x d, none of them on a bound. They do not depend on the number of threads. With
+  /// marginals the draws are quantiles of uniform numbers.
+  /// \throws SamplingError if a user-defined prior draws a point outside its support
   [[nodiscard]] Population sample(Index n, const StreamKey& key, int threads = 1) const;
 
-  /// One draw from the random words at a place.
+  /// One draw, from the random words at a place.
   void draw(const StreamKey& key, const DrawId& place, Eigen::Ref<Eigen::VectorXd> point) const;
 
   /// Logarithm of the normalised density of each row of `points`.
   [[nodiscard]] Eigen::VectorXd log_density(const Population& points) const;
 
-  /// The log-density less log_constant(), of n points that stand column by column.
+  /// The log-density minus log_constant(), of n points that are stored column by column.
   /// \param columns  d pointers to n numbers each
-  /// \throws SamplingError if a prior of the user's own gives NaN or plus infinity
+  /// \throws SamplingError if a user-defined prior gives NaN or plus infinity
   void log_kernel(std::span<const double* const> columns, std::size_t n, double* result) const;
 
-  /// What log_kernel() leaves out, the part of the log-density that no parameter changes.
+  /// The part of the log-density that does not depend on the parameters, which log_kernel() leaves out.
   [[nodiscard]] double log_constant() const;
 
  private:
@@ -107,12 +113,12 @@ class Prior {
   std::vector<Marginal> marginals_;
   Eigen::MatrixXd
       factor_;  // Cholesky factor of the correlation matrix of the normal scores; empty for independence
-  std::vector<char> correlated_;  // which parameters are, with any other; empty for independence
+  std::vector<char> correlated_;  // whether each parameter is correlated with another; empty for independence
   std::shared_ptr<const OwnPrior> own_;
   bool box_ = false;
 };
 
-/// The name that the uniform prior had.
+/// Former name of the uniform prior.
 using BoxPrior = Prior;
 
 }  // namespace tmcmc

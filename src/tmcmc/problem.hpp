@@ -1,5 +1,5 @@
 /// \file
-/// What is sampled.
+/// The problem to be sampled.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,15 @@
 
 namespace tmcmc {
 
-/// What is sampled: the posterior proportional to likelihood times prior.
+/// The problem to be sampled: the posterior is proportional to likelihood times prior.
 struct Problem {
-  /// Of the whole population, a row per point.
+  /// Log-likelihood of the whole population, one row per point.
   LogLikelihood log_likelihood;
-  /// Normalised.
+  /// Normalised prior.
   Prior prior;
-  /// Called now and then between pieces of the sampler's own work where that takes long, such as the fit of a mixture, on the
-  /// thread that called run(), to look for an interrupt for instance. What it throws ends the run; it changes no result. Empty
-  /// for none.
+  /// Called from time to time during long pieces of the sampler's own work, such as the fit of a mixture, on
+  /// the thread that called run(), for example to check for an interrupt. An exception that it throws ends
+  /// the run; it does not change any result. May be empty.
   std::function<void()> look = {};
 };
 

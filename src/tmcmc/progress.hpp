@@ -1,5 +1,5 @@
 /// \file
-/// What a run carries from one stage to the next: all that it takes to go on.
+/// The data that a run carries from one stage to the next: everything needed to resume it.
 #pragma once
 
 #include <vector>
@@ -11,21 +11,21 @@
 
 namespace tmcmc {
 
-/// A run after some of its stages. `resume` goes on from here. With the finish IndependentDraws: the
-/// points that have been evaluated so far, in any order, with their log-likelihoods; beta is 0 and there
-/// are no stages. `resume` then repeats the run, and takes the values of these points from here.
+/// A run after some of its stages, from which `resume` continues. With the finish IndependentDraws it holds
+/// the points evaluated so far, in any order, with their log-likelihoods; beta is 0 and there are no stages.
+/// `resume` then repeats the run, and takes the values of these points from here.
 struct Progress {
   /// Population at the last beta.
   State state;
-  /// So far.
+  /// Records of the stages so far.
   std::vector<StageRecord> stages;
-  /// Empty without Options::diagnose.
+  /// Bridge sums; empty without Options::diagnose.
   BridgeEvidence bridge;
 };
 
-/// Checks what resume relies on: sizes that go together, indices within them, points in the support
-/// of the prior, log-likelihoods that are none of NaN and plus infinity, beta in [0, 1].
-/// \throws errors::InvalidValue naming the field, what it is and what was expected.
+/// Checks the assumptions of resume: consistent sizes, indices within them, points in the support of the
+/// prior, log-likelihoods that are neither NaN nor plus infinity, and beta in [0, 1].
+/// \throws errors::InvalidValue naming the field, its value and what was expected.
 void require_valid(const Progress& progress, const Prior& prior, const Options& options);
 
 }  // namespace tmcmc

@@ -1,5 +1,5 @@
 /// \file
-/// What Metropolis proposals can be.
+/// Options of the Metropolis proposals.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace tmcmc {
 
-/// The m in Eq. 5.
+/// The centre m in Eq. 5.
 enum class Centre {
-  /// Ching and Chen 2007.
+  /// Weighted mean, as in Ching and Chen 2007.
   weighted_mean,
-  /// As Eq. 5 is printed.
+  /// Unweighted mean, as Eq. 5 is printed.
   plain_mean
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Centre>) {
@@ -25,76 +25,76 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Ce
 
 /// Coordinates in which proposals are made.
 enum class Coordinates {
-  /// The parameters themselves; a proposal can fall outside the support of the prior.
+  /// The parameters themselves; a proposal may fall outside the support of the prior.
   natural,
   /// u = log((x - lower) / (upper - x)) where the prior's support has two bounds, log(x - lower) or
-  /// -log(upper - x) where it has one, x itself where it has none; the acceptance ratio carries the
-  /// Jacobian, and no proposal falls outside.
+  /// -log(upper - x) where it has one, x itself where it has none; the acceptance ratio includes the
+  /// Jacobian, and no proposal falls outside the support.
   unbounded
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Coordinates>) {
   return {"natural", "unbounded"};
 }
 
-/// A proposal that leaves the tempered posterior invariant; one outside the support of the prior is
+/// A proposal that leaves the tempered posterior invariant; proposals outside the support of the prior are
 /// rejected. The defaults are the paper's random walk.
 struct MetropolisProposal {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "reject";
 
-  /// The coordinates in which it is drawn.
+  /// The coordinates in which the proposal is drawn.
   Coordinates coordinates = Coordinates::natural;
   /// A proposal changes a random set of (whitened) coordinates: detail::MetropolisKernel.
   bool random_subsets = false;
-  /// Share of the proposals that are drawn from the normal distribution fitted to the population
-  /// instead of around the present state: detail::MetropolisKernel.
+  /// Share of the proposals that are drawn from the normal distribution fitted to the population instead of
+  /// around the current state: detail::MetropolisKernel.
   double independent_fraction = 0.0;
 };
 
-/// A random walk in all parameters; what falls outside the support of the prior is drawn again
-/// until it is inside, without the correction of the acceptance ratio (published scripts).
+/// A random walk in all parameters; a proposal outside the support of the prior is drawn again until it is
+/// inside, without the corresponding correction of the acceptance ratio (published scripts).
 struct RedrawnWalk {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "redraw";
 
   /// A proposal that is drawn again more often than this ends the run with an error.
   Index max_redraws = 100000;
 };
 
-/// How a state is proposed.
+/// Method by which a state is proposed.
 using Proposal = std::variant<MetropolisProposal, RedrawnWalk>;
 
-/// Proposals have this multiple of the population's covariance root (Eq. 5: gamma = 0.2).
+/// Proposals are scaled by this multiple of the population's covariance root (Eq. 5: gamma = 0.2).
 struct FixedScale {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "fixed";
 
   /// gamma.
   double scale = 0.2;
 };
 
-/// 2.38 / sqrt(d), d the number of coordinates that a proposal changes (Roberts, Gelman and Gilks
-/// 1997).
+/// Scale 2.38 / sqrt(d), where d is the number of coordinates that a proposal changes (Roberts, Gelman and
+/// Gilks 1997).
 struct DimensionScale {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "dimension";
 };
 
-/// Starts as DimensionScale; after step k of a stage its logarithm grows by (acceptance rate of the
-/// random walks - acceptance) / sqrt(k), and the next stage goes on from there (after Betz,
+/// The scale starts as in DimensionScale; after step k of a stage its logarithm grows by (acceptance rate of
+/// the random walks - acceptance) / sqrt(k), and the next stage continues from there (after Betz,
 /// Papaioannou and Straub 2016, who adapt after groups of chains). Not for growing chains.
 struct TargetAcceptance {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "target-acceptance";
 
-  /// The acceptance rate that is aimed at.
+  /// The target acceptance rate.
   double acceptance = 0.3;
 };
 
-/// 1/9 + 8/9 of the acceptance rate of the random walks of the stage before (Minson, Simons and
-/// Beck 2013); first 1.
+/// Scale 1/9 + 8/9 of the acceptance rate of the random walks in the preceding stage (Minson, Simons and
+/// Beck 2013); 1 in the first stage.
 struct AcceptanceLinked {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "acceptance-linked";
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Philox = r123::Philox4x64;
 
-/// Everything of the counter but the row.
+/// The counter without the row.
 Philox::ctr_type counter_of(const StreamKey& key, const DrawId& id) {
   return {{id.stage | (static_cast<std::uint64_t>(key.arm) << 32U) |
                (static_cast<std::uint64_t>(id.purpose) << 56U),

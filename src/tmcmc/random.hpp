@@ -1,6 +1,6 @@
 /// \file
-/// Random numbers as a function of where they are used (Salmon et al. 2011, Philox 4x64-10): no generator is
-/// carried along, so neither threads nor the order of work can change a draw.
+/// Random numbers as a function of where they are used (Salmon et al. 2011, Philox 4x64-10): no generator
+/// state is carried along, so neither threads nor the order of work can change a draw.
 #pragma once
 
 #include <array>
@@ -10,26 +10,26 @@
 
 namespace tmcmc {
 
-/// Names one run. Runs that differ in any field have independent streams.
+/// Identifies one run. Runs that differ in any field have independent streams.
 struct StreamKey {
-  std::uint64_t seed = 0;   ///< of all streams
+  std::uint64_t seed = 0;   ///< seed of all streams
   std::uint32_t study = 0;  ///< number of the study among its replications
-  std::uint32_t arm = 0;    ///< which of the samplers that a study compares; below 2^24
+  std::uint32_t arm = 0;    ///< index of the sampler among those that a study compares; below 2^24
   std::uint32_t run = 0;    ///< number of the run within the study
 };
 
-/// What a draw is for; keeps the draws of one stage apart. `statistics`: of runs that are done; `reference`: of a
-/// density that was fitted to a population.
+/// Purpose of a draw; separates the draws of one stage. `statistics`: draws for the analysis of completed
+/// runs; `reference`: draws from a density that was fitted to a population.
 enum class Purpose : std::uint32_t { prior, resampling, move, data, statistics, reference };
 
 /// Place of a block of four random words within a run.
 struct DrawId {
   Purpose purpose = Purpose::prior;  ///< what the draw is for
-  std::uint32_t stage = 0;           ///< stage of the sampler, the prior being 0
+  std::uint32_t stage = 0;           ///< stage of the sampler, 0 for the prior
   std::uint64_t row = 0;             ///< row of the population
   std::uint32_t draw = 0;            ///< step of a move
   std::uint32_t attempt = 0;         ///< repetition of a draw that was discarded
-  std::uint32_t block = 0;           ///< where one draw needs more than four words
+  std::uint32_t block = 0;           ///< block, if one draw needs more than four words
 };
 
 /// Output of one call of the generator.

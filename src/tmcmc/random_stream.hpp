@@ -1,5 +1,5 @@
 /// \file
-/// The random numbers of one draw, one after the other.
+/// The random numbers of one draw, in sequence.
 #pragma once
 
 #include "portable_math/normal_quantile.hpp"
@@ -7,11 +7,11 @@
 
 namespace tmcmc {
 
-/// Numbers from the counter-based words at a place and in the blocks after it: a function of key and place alone, so that draws
-/// do not depend on threads or on each other.
+/// Numbers from the counter-based words at a place and in the blocks after it. They depend only on key and
+/// place, so that draws do not depend on threads or on each other.
 class RandomStream {
  public:
-  /// \param place  of the first four words; the others follow in place.block + 1, ...
+  /// \param place  place of the first four words; the others follow in place.block + 1, ...
   RandomStream(const StreamKey& key, const DrawId& place) : key_(key), place_(place) {}
 
   /// Uniform on the open interval (0, 1).
@@ -24,7 +24,7 @@ class RandomStream {
     return uniform_open(words_[next_++]);
   }
 
-  /// Standard normal, from one uniform number by its quantile.
+  /// Standard normal, the quantile of one uniform number.
   double normal() { return portable_math::normal_quantile(uniform()); }
 
  private:

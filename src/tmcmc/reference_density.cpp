@@ -10,10 +10,10 @@ namespace tmcmc {
 
 namespace {
 
-/// Random words of the prior's draws and of the division into parts: beyond those of the mixture.
+/// Random words for the prior's draws and for the division into parts: beyond the words of the mixture.
 constexpr std::uint32_t prior_block = 2U << 24U;
 
-/// log(exp(a) + exp(b)), one of them finite.
+/// log(exp(a) + exp(b)), where at least one of a and b is finite.
 PORTABLE_MATH_MULTIVERSION
 void log_add(double log_share_a, const double* a, double log_share_b, const double* b, Index n,
              double* result) {

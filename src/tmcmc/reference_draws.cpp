@@ -1,4 +1,4 @@
-// Draws from reference densities, and the density that all of them together are from.
+// Draws from reference densities, and the joint density of all of them.
 
 #include <limits>
 #include <numeric>
@@ -37,7 +37,8 @@ void log_mixture(Index n, double prior_draws, const double* fitted, const double
   }
 }
 
-/// result = n (1 - s exp(log_prior - log_own)), of draws of one density: n (1 - s) f over their density f (1 - s) + s p.
+/// result = n (1 - s exp(log_prior - log_own)), for draws from one density: n (1 - s) f over their density f
+/// (1 - s) + s p.
 PORTABLE_MATH_MULTIVERSION
 void relative_to_own(Index rows, double n, double prior_share, const double* log_prior, const double* log_own,
                      double* result) {
@@ -46,7 +47,7 @@ void relative_to_own(Index rows, double n, double prior_share, const double* log
   }
 }
 
-/// sum_r n_r s_r: the draws that the prior makes up.
+/// sum_r n_r s_r: the number of draws that come from the prior.
 double prior_draws(const ReferenceDraws& draws) {
   double result = 0.0;
   for (std::size_t r = 0; r < draws.references.size(); ++r) {
@@ -55,7 +56,7 @@ double prior_draws(const ReferenceDraws& draws) {
   return result;
 }
 
-/// Adds n_r (1 - s_r) f_r over the density of the points' own, of each of the references.
+/// Adds n_r (1 - s_r) f_r, divided by the points' own density, for each of the references.
 void add_references(const std::vector<ReferenceDensity>& references, const std::vector<Index>& counts,
                     const Population& z, const Eigen::VectorXd& log_own, Eigen::VectorXd& fitted, int threads,
                     const std::function<void()>& look) {
@@ -70,7 +71,7 @@ void add_references(const std::vector<ReferenceDensity>& references, const std::
   }
 }
 
-/// Those that the model does not exclude.
+/// The draws that the model does not exclude.
 ReferenceDraws without_excluded(const ReferenceDraws& draws) {
   std::vector<Index> rows;
   for (Index i = 0; i < draws.z.rows(); ++i) {

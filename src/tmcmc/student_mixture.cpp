@@ -27,7 +27,7 @@ void add_relative(Index rows, double log_factor, const double* sum, const double
   }
 }
 
-/// use(terms, begin, rows) for each so many rows of the points.
+/// Calls use(terms, begin, rows) for each block of rows of the points.
 template <class Use>
 void for_each_mixture_rows(const StudentMixture& mixture, const Population& points, int threads, Use use) {
   for_each_block(points.rows(), reduction_rows, threads, [&](Index, Index begin, Index end) {

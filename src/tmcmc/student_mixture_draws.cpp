@@ -46,7 +46,7 @@ void add_stretched(double entry, const double* normal, const double* stretch, do
   }
 }
 
-/// Normals and stretches sqrt(nu / chi^2) of the draws first ... first + lanes - 1.
+/// Normals and stretch factors sqrt(nu / chi^2) of the draws first ... first + lanes - 1.
 class Draws {
  public:
   Draws(Index d, int degrees_of_freedom)

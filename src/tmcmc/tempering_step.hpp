@@ -1,8 +1,7 @@
 /// \file
 /// Choice of the tempering step: the coefficient-of-variation rule of TMCMC (Eq. 6) and the
-/// effective-sample-size rule of TMCMC-II (Eq. 9), each solved as it is written. With the
-/// population standard deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the
-/// same equation.
+/// effective-sample-size rule of TMCMC-II (Eq. 9), each solved as written. With the population standard
+/// deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the same equation.
 #pragma once
 
 #include <string_view>
@@ -13,37 +12,37 @@
 
 namespace tmcmc {
 
-/// The coefficient of variation of the weights is `target` (Eq. 6).
+/// Rule: the coefficient of variation of the weights is `target` (Eq. 6).
 struct CoefficientOfVariation {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "coefficient-of-variation";
 
-  /// 1 is 100 %.
+  /// Target; 1 is 100 %.
   double target = 1.0;
 };
 
-/// The effective sample size of the weights is this fraction of the samples counted (Eq. 9).
+/// Rule: the effective sample size of the weights is this fraction of the samples counted (Eq. 9).
 struct EffectiveSampleSize {
-  /// On the command line and in checkpoints.
+  /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "effective-sample-size";
 
-  /// Of N, in (0, 1].
+  /// Fraction of N, in (0, 1].
   double fraction = 0.5;
 };
 
 /// A rule for the tempering step, as a value.
 struct Criterion {
-  /// Eq. 6 or Eq. 9.
+  /// The rule: Eq. 6 or Eq. 9.
   std::variant<CoefficientOfVariation, EffectiveSampleSize> rule;
-  /// Of the coefficient of variation, which the record of a stage holds under either rule.
+  /// Deviation used in the coefficient of variation, which the record of a stage holds under either rule.
   Deviation deviation = Deviation::population;
-  /// The samples that the criterion is about.
+  /// The samples to which the criterion applies.
   Counted counted = Counted::feasible;
 };
 
-/// CoV = target (Eq. 6).
+/// The rule CoV = target (Eq. 6).
 [[nodiscard]] Criterion coefficient_of_variation_rule(double target = 1.0);
-/// N_eff = fraction of the samples counted (Eq. 9).
+/// The rule N_eff = fraction of the samples counted (Eq. 9).
 [[nodiscard]] Criterion effective_sample_size_rule(double fraction = 0.5);
 
 /// Calls visit(OptionInfo, pointer to the value) for each option of the criterion.
@@ -72,40 +71,40 @@ void visit_criterion_options(AnyCriterion& criterion, Visit&& visit) {
 enum class TemperingStatus {
   /// The remaining step already meets the criterion.
   final_step,
-  /// Root found.
+  /// A root was found.
   solved,
-  /// Only a step of 0 meets the criterion (N_eff = N), or none of 1e-300 and more.
+  /// Only a step of 0 meets the criterion (N_eff = N), or no step of at least 1e-300 does.
   zero_step,
-  /// No positive step meets it: too few samples are feasible.
+  /// No positive step meets the criterion: too few samples are feasible.
   unreachable,
   /// Every log-likelihood is minus infinity.
   infeasible
 };
 
-/// A step of beta with what the search found on the way.
+/// A step of beta with the results of the search.
 struct TemperingStep {
-  /// dbeta.
+  /// Step dbeta.
   double step = 0.0;
   /// How the search ended.
   TemperingStatus status = TemperingStatus::solved;
-  /// At the step; 0 where no step was found.
+  /// Effective sample size at the step; 0 if no step was found.
   double effective_sample_size = 0.0;
-  /// At the step, with the criterion's deviation and count.
+  /// Coefficient of variation at the step, with the criterion's deviation and count.
   double coefficient_of_variation = 0.0;
-  /// Final bracket of the root.
+  /// Lower end of the final bracket of the root.
   double bracket_low = 0.0;
-  /// The larger end; both 0 where there was no search.
+  /// Upper end of the bracket; both ends are 0 if there was no search.
   double bracket_high = 0.0;
-  /// Evaluations of all weights.
+  /// Number of evaluations of all weights.
   int evaluations = 0;
 };
 
-/// The largest step in (0, remaining] that keeps the criterion: `remaining` itself if it does, else
-/// the root, bracketed from the spread of the log-likelihoods and solved in log(step) by Algorithm
-/// 748 (Alfeld, Potra and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
+/// The largest step in (0, remaining] that satisfies the criterion: `remaining` itself if it does, otherwise
+/// the root, bracketed from the spread of the log-likelihoods and solved in log(step) by Algorithm 748
+/// (Alfeld, Potra and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
 /// \param log_likelihood  free of NaN and plus infinity
 /// \param remaining  1 - beta, positive
-/// \param threads  the result does not depend on it
+/// \param threads  number of threads; the result does not depend on it
 [[nodiscard]] TemperingStep choose_step(ConstDoubles log_likelihood, double remaining,
                                         const Criterion& criterion, int threads = 1);
 

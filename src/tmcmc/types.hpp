@@ -21,23 +21,23 @@ using Index = Eigen::Index;
 /// One row per sample, one column per parameter.
 using Population = Eigen::MatrixXd;
 
-/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point
-/// that the model excludes; NaN, plus infinity and values that are not written are errors. A row's
-/// value must not depend on the other rows of the batch. With more than one thread the function is
-/// called from several at the same time.
+/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point that the
+/// model excludes; NaN, plus infinity and values that are not written are errors. A row's value must not
+/// depend on the other rows of the batch. With more than one thread the function is called from several
+/// threads at the same time.
 using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                          Eigen::Ref<Eigen::VectorXd> log_likelihood)>;
 
-/// One number a sample, read only.
+/// One number per sample, read only.
 using ConstDoubles = std::span<const double>;
 
-/// A run that cannot go on: no feasible draw, a criterion that no step meets, a NaN likelihood.
+/// Thrown by a run that cannot continue: no feasible draw, a criterion that no step meets, a NaN likelihood.
 class SamplingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// No draw from the prior is feasible: prior and model are incompatible.
+/// Thrown if no draw from the prior is feasible: prior and model are incompatible.
 class InfeasiblePriorError : public SamplingError {
  public:
   using SamplingError::SamplingError;

@@ -1,5 +1,6 @@
 /// \file
-/// The way between parameters and the unbounded coordinates that follow from the supports of their prior.
+/// Transformations between parameters and the unbounded coordinates that follow from the supports of their
+/// prior.
 #pragma once
 
 #include "tmcmc/prior.hpp"
@@ -11,8 +12,8 @@ namespace tmcmc {
 /// \param points  n x d, inside the support
 [[nodiscard]] Population to_unbounded(const Population& points, const Prior& prior);
 
-/// The parameters x of coordinates z, n x d: the inverse of to_unbounded(). What would round to a bound of the support becomes
-/// the double next to it.
+/// The parameters x for coordinates z, n x d: the inverse of to_unbounded(). A value that would round to a
+/// bound of the support becomes the adjacent double inside it.
 [[nodiscard]] Population from_unbounded(const Population& z, const Prior& prior);
 
 /// Logarithm of the prior density of the coordinates, p(x(z)) |dx/dz|. A uniform parameter has the standard logistic density,

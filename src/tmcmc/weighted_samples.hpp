@@ -1,5 +1,5 @@
 /// \file
-/// Samples with weights: what they are worth, and equally weighted ones drawn from them.
+/// Samples with weights: their effective size, and equally weighted samples drawn from them.
 #pragma once
 
 #include "tmcmc/resampling.hpp"
@@ -11,20 +11,19 @@ namespace tmcmc {
 ///
 ///     sum w (x - m)^2 sum w / sum w^2 (x - m)^2,
 ///
-/// the variance of the parameter over that of its mean. Equal weights make it n.
+/// the variance of the parameter divided by the variance of its mean. With equal weights it is n.
 /// \param points   n x d, independent
 /// \param weights  n, non-negative
 /// \return  d entries; 0 for a constant parameter or where all weights are 0
 [[nodiscard]] Eigen::VectorXd effective_sample_sizes(const Population& points,
                                                      const Eigen::VectorXd& weights);
 
-/// n equally weighted points, n x d, drawn from the weighted samples of a run. Sample i is expected n
-/// w_i / sum(w) times.
-/// \param scheme  residual resampling (Douc, Cappe and Moulines 2005) disturbs means least;
-///                multinomial gives n independent draws, whose distribution functions spread as those
-///                of independent samples do
-/// \param key     a run that has drawn with it stays independent of the choice
-/// \throws errors::InvalidValue for n below 1, or a result whose weights do not go with its samples
+/// n equally weighted points, n x d, drawn from the weighted samples of a run. The expected number of copies
+/// of sample i is n w_i / sum(w).
+/// \param scheme  residual resampling (Douc, Cappe and Moulines 2005) disturbs means least; multinomial gives
+///        n independent draws, whose distribution functions vary as those of independent samples do
+/// \param key  key of the draws; a run that has used the same key stays independent of them
+/// \throws errors::InvalidValue for n below 1, or a result whose weights are inconsistent with its samples
 [[nodiscard]] Population equally_weighted(const Result& result, Index n, const StreamKey& key,
                                           Resampling scheme = Resampling::residual);
 

@@ -9,12 +9,12 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Growth of beta that is assumed after the first stage, for want of an earlier temperature to
-/// compare with.
+/// Growth of beta that is assumed after the first stage, since there is no earlier temperature to compare
+/// with.
 constexpr double first_growth = 2.0;
 
-/// Stages that follow one which goes from `beta` to `next`, if log(beta) goes on growing by as much
-/// as in this one.
+/// Number of stages after the one from `beta` to `next`, if log(beta) continues to grow by as much as in
+/// this stage.
 double stages_after(double beta, double next) {
   const double growth = portable_math::log(beta > 0.0 ? next / beta : first_growth);
   return std::max(std::ceil(-portable_math::log(next) / std::max(growth, 1e-3)), 1.0);
@@ -38,7 +38,7 @@ Index least_steps(const Options& options, const State& from, double next) {
   return std::clamp(static_cast<Index>(std::min(share, 1e15)), Index{1}, std::max(steps, Index{1}));
 }
 
-/// No more than the budget holds.
+/// The largest number of steps, no more than the budget holds.
 Index most_steps(const Options& options, const State& from, double next, Index least) {
   const auto* resample_move = std::get_if<ResampleMove>(&options.move);
   const bool goes_on = resample_move != nullptr && resample_move->mixing_correlation > 0.0;

@@ -29,7 +29,7 @@ void lower_distances(Index n, Index d, const double* points, const double* centr
   }
 }
 
-/// nearest = k where the distance has become less.
+/// Sets nearest = k where the distance has become smaller.
 PORTABLE_MATH_MULTIVERSION
 void take_nearer(Index n, Index k, const double* least, const double* before, Index* nearest) {
   for (Index i = 0; i < n; ++i) {
@@ -37,7 +37,8 @@ void take_nearer(Index n, Index k, const double* least, const double* before, In
   }
 }
 
-/// Weighted k-means++: rows, each drawn in proportion to weight times squared distance from those before.
+/// Weighted k-means++: rows, each drawn with probability proportional to weight times squared distance from
+/// the previous rows.
 std::vector<Index> first_centres(const Population& white, const Eigen::VectorXd& weights, Index components,
                                  const StreamKey& key, std::uint32_t stage) {
   const Index n = white.rows();

@@ -1,5 +1,5 @@
 /// \file
-/// Clusters of weighted points, where the fit of a mixture starts.
+/// Clusters of weighted points, from which the fit of a mixture starts.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 namespace tmcmc::detail {
 
 /// The number of the cluster of each point: weighted k-means++ (Arthur and Vassilvitskii 2007), then a few of Lloyd's iterations.
-/// \param white  n x d, in coordinates in which distances mean something
+/// \param white  n x d, in coordinates in which distances are meaningful
 /// \param weights  n, not negative, not all zero
-/// \param components  clusters at most; some may be empty
-/// \param stage  of Purpose::reference
+/// \param components  largest number of clusters; some may be empty
+/// \param stage  stage of the random stream of Purpose::reference
 [[nodiscard]] std::vector<Index> clusters(const Population& white, const Eigen::VectorXd& weights,
                                           Index components, const StreamKey& key, std::uint32_t stage);
 

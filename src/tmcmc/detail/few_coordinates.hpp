@@ -1,5 +1,5 @@
 /// \file
-/// Loops that the compiler unrolls where there are few coordinates.
+/// Loops that the compiler unrolls if there are few coordinates.
 #pragma once
 
 #include <type_traits>
@@ -10,7 +10,8 @@
 
 namespace tmcmc::detail {
 
-/// For so few coordinates there are versions in which those of a point stay in registers.
+/// Up to this number of coordinates there are versions in which the coordinates of a point stay in
+/// registers.
 constexpr int most_of_few = 6;
 
 /// Calls use(std::integral_constant<int, d>) if d is one of D + 1.
@@ -19,9 +20,9 @@ PORTABLE_MATH_INLINE bool for_one_of(Index d, const Use& use, std::integer_seque
   return ((d == D + 1 && (use(std::integral_constant<int, D + 1>{}), true)) || ...);
 }
 
-/// use(std::integral_constant<int, d>).
-/// \param use  to be inlined, so that it is compiled for the instruction set of the caller
-/// \return  false, and nothing is done, for more than most_of_few coordinates
+/// Calls use(std::integral_constant<int, d>).
+/// \param use  must be inlined, so that it is compiled for the instruction set of the caller
+/// \return  false, without doing anything, for more than most_of_few coordinates
 template <class Use>
 PORTABLE_MATH_INLINE bool for_few_coordinates(Index d, const Use& use) {
   return for_one_of(d, use, std::make_integer_sequence<int, most_of_few>{});

@@ -12,10 +12,10 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Times that an observer is called in a run.
+/// Number of calls of an observer in a run.
 constexpr Index observations = 40;
 
-/// A run in which so much has been evaluated.
+/// The progress of a run after these evaluations.
 Progress progress_of(const Walkers& evaluated) {
   Progress progress;
   static_cast<Walkers&>(progress.state) = evaluated;
@@ -24,7 +24,7 @@ Progress progress_of(const Walkers& evaluated) {
   return progress;
 }
 
-/// Warnings that every weighted sample can give.
+/// Warnings that apply to every weighted sample.
 void warn_of_sizes(const Prior& prior, Result& result) {
   constexpr double fewest = 50.0;
   constexpr double largest_error = 1.0;

@@ -1,5 +1,5 @@
 /// \file
-/// A run whose finish is IndependentDraws.
+/// A run with the finish IndependentDraws.
 #pragma once
 
 #include "tmcmc/progress.hpp"
@@ -7,8 +7,8 @@
 
 namespace tmcmc::detail {
 
-/// The run from what `from` holds: nothing, or points that an earlier run with the same key has
-/// evaluated. It is the same run from its beginning, in which these cost nothing.
+/// Runs from the contents of `from`: nothing, or points that an earlier run with the same key has evaluated.
+/// The run is repeated from its beginning, with these points at no cost.
 /// \param options  valid, with the finish IndependentDraws
 /// \throws as run()
 [[nodiscard]] Result run_independent_draws(const Problem& problem, const Options& options,

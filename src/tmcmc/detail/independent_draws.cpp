@@ -30,7 +30,7 @@ StreamKey derived(const StreamKey& key, std::uint32_t number) {
   return result;
 }
 
-/// Share of a population that the criterion asks for as its effective size.
+/// Effective size that the criterion requires, as a share of the population.
 double effective_share(const Criterion& criterion) {
   if (const auto* size = std::get_if<EffectiveSampleSize>(&criterion.rule)) {
     return size->fraction;
@@ -39,9 +39,10 @@ double effective_share(const Criterion& criterion) {
   return 1.0 / (1.0 + target * target);
 }
 
-/// What one of two searches gets: populations of 200 draws, or 40 d, where the evaluations suffice for 20 of them besides 600
-/// draws. Smaller ones are quicker at the posterior, but lose modes. A fit after each half of a population wastes fewer draws
-/// on an old one, but a fit after fewer than 100 loses modes.
+/// Settings for each of the two searches: populations of 200 draws, or 40 d, if the evaluations suffice for
+/// 20 of them in addition to 600 draws. Smaller populations reach the posterior sooner, but lose modes. A
+/// fit after each half of a population wastes fewer draws on an old fit, but a fit after fewer than 100
+/// draws loses modes.
 SearchOptions search_options(const Options& options, const IndependentDraws& settings, Index dimension) {
   const auto all = static_cast<double>(options.evaluation_budget);
   const auto d = static_cast<double>(dimension);
@@ -91,7 +92,8 @@ WeightedPoints united(const WeightedPoints& a, const WeightedPoints& b) {
   return all;
 }
 
-/// Share of the posterior mass, at up to 1000 of the draws, where a search has made fewer than 8 draws per unit of mass.
+/// Share of the posterior mass, evaluated at up to 1000 of the draws, where a search has made fewer than 8
+/// draws per unit of mass.
 double missed_mass(const Search& search, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
                    double log_evidence, int threads, const std::function<void()>& look) {
   constexpr Index most_points = 1000;
@@ -171,7 +173,7 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
   return warnings;
 }
 
-/// The options for the evaluations that are left: without the finish, and with samples in proportion.
+/// The options for the remaining evaluations: without the finish, and with a proportional number of samples.
 Options options_for_the_rest(Options options, Index evaluations) {
   const auto* waste_free = std::get_if<WasteFree>(&options.move);
   const Index chains = waste_free != nullptr ? waste_free->chains : 1;
@@ -183,7 +185,7 @@ Options options_for_the_rest(Options options, Index evaluations) {
   return options;
 }
 
-/// What a run of TMCMC on the remaining evaluations gives.
+/// Takes over the results of a TMCMC run with the remaining evaluations.
 void take_over(const Problem& problem, const Options& options, const StreamKey& key,
                MeasuredPosterior& measured) {
   measured.tmcmc =
@@ -197,7 +199,7 @@ void take_over(const Problem& problem, const Options& options, const StreamKey& 
   measured.warnings.push_back({WarningKind::search_not_completed, text.str()});
 }
 
-/// The rounds of a search as stages.
+/// The rounds of a search, recorded as stages.
 std::vector<StageRecord> records_of(const Search& search) {
   std::vector<StageRecord> records;
   for (std::size_t r = 0; r < search.rounds.size(); ++r) {
@@ -212,7 +214,7 @@ std::vector<StageRecord> records_of(const Search& search) {
   return records;
 }
 
-/// Whether the fit is good enough to be frozen, or attempts have to end.
+/// Whether the fit is good enough to be frozen, or no further attempts are allowed.
 bool is_frozen(const IndependentDraws& settings, double effective_share, std::uint32_t attempt) {
   if (attempt == 0) {
     return effective_share >= share_of_a_good_fit;

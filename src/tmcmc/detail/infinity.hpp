@@ -1,5 +1,5 @@
 /// \file
-/// Infinity by a short name.
+/// A short name for infinity.
 #pragma once
 
 #include <limits>

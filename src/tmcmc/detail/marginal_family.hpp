@@ -1,5 +1,5 @@
 /// \file
-/// What a distribution has to provide to be a Marginal, and checks of arguments.
+/// Interface that a distribution implements to be a Marginal, and checks of arguments.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace tmcmc::detail {
 
-/// Doubles throughout, and limits instead of exceptions.
+/// Policy of Boost.Math: doubles throughout, and limits instead of exceptions.
 using Policy = boost::math::policies::policy<
     boost::math::policies::promote_double<false>,
     boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
@@ -40,7 +40,7 @@ inline double minus_log_complement(double p) {
   return q == 1.0 ? p : -portable_math::log(q) * (p / (1.0 - q));
 }
 
-/// The functions of a distribution with its arguments; Marginal documents them.
+/// The functions of a distribution with given arguments; Marginal documents them.
 class MarginalFamily {
  public:
   virtual ~MarginalFamily() = default;
@@ -51,7 +51,7 @@ class MarginalFamily {
   virtual void add_log_kernel(const double* x, std::size_t n, double* sum) const = 0;
   [[nodiscard]] virtual double log_constant() const = 0;
   [[nodiscard]] virtual double cdf(double x) const = 0;                  ///< x inside the support
-  [[nodiscard]] virtual double complement(double x) const = 0;           ///< likewise
+  [[nodiscard]] virtual double complement(double x) const = 0;           ///< x inside the support
   [[nodiscard]] virtual double quantile(double p) const = 0;             ///< p in (0, 1)
   [[nodiscard]] virtual double complement_quantile(double q) const = 0;  ///< x with P(X > x) = q
   [[nodiscard]] virtual double normal_score(double x) const {
@@ -69,8 +69,9 @@ class MarginalFamily {
   }
 };
 
-/// A family by a function add_kernel(derived, x, n, sum) beside it, which adds Derived::log_kernel(x[i]) to each sum[i]. It stands by
-/// itself so that it can be compiled for each instruction set.
+/// A family implemented by a function add_kernel(derived, x, n, sum) next to it, which adds
+/// Derived::log_kernel(x[i]) to each sum[i]. The function is a free function so that it can be compiled for
+/// each instruction set.
 template <class Derived>
 class FamilyOf : public MarginalFamily {
  public:
@@ -79,16 +80,17 @@ class FamilyOf : public MarginalFamily {
   }
 };
 
-/// The loop of add_kernel(), to be inlined into it; log_kernel() gives minus infinity outside the support.
+/// The loop of add_kernel(), which is inlined into it; log_kernel() gives minus infinity outside the
+/// support.
 template <class Derived>
 PORTABLE_MATH_INLINE void add_each(const Derived& family, const double* x, std::size_t n, double* sum) {
-  const Derived self = family;  // what nothing else points to stays in registers
+  const Derived self = family;  // a copy that nothing else points to stays in registers
   for (std::size_t i = 0; i < n; ++i) {
     sum[i] += self.log_kernel(x[i]);
   }
 }
 
-/// A distribution of Boost.Math, moved by `location` and stretched by `scale`.
+/// A distribution of Boost.Math, shifted by `location` and scaled by `scale`.
 template <class Distribution>
 class BoostFunctions {
  public:
@@ -113,7 +115,7 @@ class BoostFunctions {
   double scale_;
 };
 
-/// The argument, if it is a finite number.
+/// Returns the argument if it is a finite number.
 inline double finite(const char* name, double value) {
   if (!std::isfinite(value)) {
     throw errors::InvalidValue(name, value, "a finite number");
@@ -121,7 +123,7 @@ inline double finite(const char* name, double value) {
   return value;
 }
 
-/// The argument, if it is finite and positive.
+/// Returns the argument if it is finite and positive.
 inline double positive(const char* name, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) {
     throw errors::InvalidValue(name, value, "a positive number");
@@ -129,7 +131,7 @@ inline double positive(const char* name, double value) {
   return value;
 }
 
-/// Refuses an interval without doubles in it, or one whose length overflows.
+/// Refuses an interval that contains no doubles, or whose length overflows.
 inline void require_interval(double lower, double upper) {
   finite("lower", lower);
   if (!std::isfinite(upper - lower) || !(std::nextafter(lower, upper) < upper)) {

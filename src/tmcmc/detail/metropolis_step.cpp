@@ -32,7 +32,7 @@ struct Mover::Block {
         accepted_numbers(static_cast<std::size_t>(most_rows)),
         proposals(dimension) {}
 
-  /// Adds the present proposals of the given lanes to the candidates.
+  /// Adds the current proposals of the given lanes to the candidates.
   void keep(std::span<const std::size_t> lanes, const ProposalLanes::RowIds& lane_rows,
             const ProposalLanes::Lanes& lane_log_uniforms) {
     for (Index j = 0; j < candidates.cols(); ++j) {
@@ -51,13 +51,14 @@ struct Mover::Block {
     }
   }
 
-  /// One proposal for each of the first `row_count` rows. Those inside the support become candidates; the rows of the others
-  /// move to the front. Returns their number.
+  /// Makes one proposal for each of the first `row_count` rows. Proposals inside the support become
+  /// candidates; the rows of the other proposals move to the front. Returns the number of these rows.
   std::size_t propose(const MetropolisKernel& kernel, const Prior& prior, const StreamKey& key,
                       const DrawId& id, std::size_t row_count, const Population& points,
                       Eigen::VectorXd& log_prior_of_points, MoveCounts& counts);
 
-  /// Moves the candidates' rows to those that are accepted, and returns their numbers.
+  /// Moves the rows of accepted candidates to the candidates' values, and returns the numbers of the
+  /// accepted candidates.
   std::span<const Index> accept(double beta, Population& points, Eigen::VectorXd& log_likelihood,
                                 MoveCounts& counts);
 
@@ -171,7 +172,8 @@ MoveCounts Mover::step(const MetropolisKernel& kernel, std::span<const Index> ro
   return total;
 }
 
-/// The caller has changed some rows since their prior density was computed: at the start of a stage all of them.
+/// Forgets the prior density of rows that the caller has changed since it was computed: at the start of a
+/// stage all rows.
 void Mover::forget_moved_rows(const Index* rows, Index begin, Index end, const Population& points) {
   for (Index i = begin; i < end; ++i) {
     const Index row = rows == nullptr ? i : rows[i];

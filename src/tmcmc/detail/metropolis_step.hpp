@@ -9,19 +9,19 @@
 
 namespace tmcmc::detail {
 
-/// What Metropolis steps did, summed over rows and steps.
+/// Counts of Metropolis steps, summed over rows and steps.
 struct MoveCounts {
   /// Proposals made, one per row and step; redrawn ones count once.
   Index proposals = 0;
   /// Proposals accepted.
   Index accepted = 0;
-  /// Proposals by a random walk, not independent ones.
+  /// Number of proposals by a random walk, without independent ones.
   Index walks = 0;
-  /// Of `walks`.
+  /// Number of accepted proposals among `walks`.
   Index accepted_walks = 0;
-  /// Log-likelihoods asked for; proposals outside the prior's support need none.
+  /// Log-likelihoods evaluated; proposals outside the prior's support need none.
   Index evaluations = 0;
-  /// Proposals drawn again (Boundary::redraw).
+  /// Number of proposals drawn again (Boundary::redraw).
   Index redraws = 0;
 
   /// Adds field by field.
@@ -31,21 +31,21 @@ struct MoveCounts {
 /// Performs Metropolis steps; owns the work space, which is reused from step to step.
 class Mover {
  public:
-  /// \param threads     threads over blocks of rows
-  /// \param batch_rows  most rows a call of the log-likelihood gets; 0: one call a thread and step
+  /// \param threads  number of threads over blocks of rows
+  /// \param batch_rows  largest number of rows in a call of the log-likelihood; 0: one call per thread and
+  ///        step
   Mover(const LogLikelihood& log_likelihood, const Prior& prior, const StreamKey& key, int threads,
         Index batch_rows);
   ~Mover();
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
 
-  /// One Metropolis step of the chains that live in the given rows, in place: a proposal theta' of
-  /// the kernel is accepted with probability min(1, (L(theta') / L(theta))^beta c), c being the
-  /// ratio of the prior densities and the correction for coordinates and proposal densities. The
-  /// draws depend on key, stage, row and `draw` alone.
-  /// \param rows  rows to move, each at most once; empty: all
-  /// \throws SamplingError for a log-likelihood of NaN or plus infinity, or if max_redraws is
-  ///         exceeded.
+  /// One Metropolis step of the chains in the given rows, in place: a proposal theta' of the kernel is
+  /// accepted with probability min(1, (L(theta') / L(theta))^beta c), where c is the ratio of the prior
+  /// densities times the correction for coordinates and proposal densities. The draws depend only on key,
+  /// stage, row and `draw`.
+  /// \param rows  rows to move, each at most once; empty: all rows
+  /// \throws SamplingError if a log-likelihood is NaN or plus infinity, or if max_redraws is exceeded.
   MoveCounts step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,
                   Population& points, Eigen::VectorXd& log_likelihood);
 
@@ -61,8 +61,8 @@ class Mover {
   StreamKey key_;
   int threads_;
   Index batch_rows_;
-  Population known_points_;    // those that log_prior_ belongs to, by their row
-  Eigen::VectorXd log_prior_;  // Prior::log_kernel() of them; NaN for none
+  Population known_points_;    // points to which log_prior_ belongs, by row
+  Eigen::VectorXd log_prior_;  // Prior::log_kernel() of these points; NaN if not known
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 

@@ -9,7 +9,7 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Logarithm of a product, with few logarithms.
+/// Logarithm of a product, computed with few logarithms.
 class LogProduct {
  public:
   void multiply(double factor) {

@@ -12,13 +12,13 @@ namespace tmcmc::detail {
 struct Component {
   const double* mean;    ///< d
   const double* factor;  ///< d x d, by columns
-  double log_constant;   ///< log of its weight times the density at its mean, without a wider part
-  double narrow = 0.0;   ///< the same relative to the largest constant, of the narrow part
-  double wide = 0.0;     ///< and of the wider one
+  double log_constant;   ///< log of (weight times density at the mean), without a wider part
+  double narrow = 0.0;   ///< this constant relative to the largest, for the narrow part
+  double wide = 0.0;     ///< this constant relative to the largest, for the wider part
 };
 
-/// The components, without narrow and wide.
-/// \param mixture  non-owning view of its means and factors; it must outlive the result
+/// The components of a mixture, without narrow and wide set.
+/// \param mixture  non-owning view of its means and factors, which must outlive the result
 [[nodiscard]] std::vector<Component> components_of(const StudentMixture& mixture);
 
 /// c^d = min(2^d, 16) of StudentMixture::wider().

@@ -6,10 +6,11 @@
 
 namespace tmcmc::detail {
 
-/// Sums of one component over points, with deviations from its mean before a step of the fit. The pull of a point is what the
-/// component takes of it, times (nu + d) / (nu + distance).
+/// Sums of one component over points, with deviations from the component's mean before a step of the fit.
+/// The pull of a point is the part of it that is assigned to the component, times (nu + d) / (nu +
+/// distance).
 struct Moments {
-  double taken = 0.0;      ///< sum of what it takes
+  double taken = 0.0;      ///< sum of the assigned parts of the points
   double pull = 0.0;       ///< sum of the pulls
   Eigen::VectorXd first;   ///< sum of the pulls times the deviations
   Eigen::MatrixXd second;  ///< lower triangle of the sum of the pulls times the products of two deviations
@@ -19,10 +20,10 @@ struct Moments {
 
 /// Points of a block, as evaluated in MixtureTerms.
 struct MomentPoints {
-  const double* points;  ///< first coordinate of the first point; coordinate j stands j * stride further on
+  const double* points;  ///< first coordinate of the first point; coordinate j is j * stride further on
   Index stride;
   Index rows;
-  const double* unit;  ///< of each point: a component takes unit * term
+  const double* unit;  ///< for each point: the part unit * term is assigned to a component
 };
 
 /// Adds the points to the moments of component k of a mixture without wider parts.

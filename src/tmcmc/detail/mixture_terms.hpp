@@ -8,27 +8,27 @@
 
 namespace tmcmc::detail {
 
-/// Rows that are worked on at a time: their intermediate results stay in the cache.
+/// Number of rows that are processed together: their intermediate results stay in the cache.
 constexpr Index mixture_rows = 256;
 
-/// Terms of a mixture at up to mixture_rows points: q(z_i) = exp(log_scale_i) sum_i, of which component k has term_ik. Entry i of
-/// component k stands at k * mixture_rows + i.
+/// Terms of a mixture at up to mixture_rows points: q(z_i) = exp(log_scale_i) sum_i, where component k
+/// contributes term_ik to sum_i. Entry i of component k is stored at k * mixture_rows + i.
 class MixtureTerms {
  public:
-  /// \param mixture  non-owning view; it must outlive this
+  /// \param mixture  non-owning view, which must outlive this object
   explicit MixtureTerms(const StudentMixture& mixture);
-  /// \param points,stride  first coordinate of the first point; coordinate j stands j * stride further on
+  /// \param points,stride  first coordinate of the first point; coordinate j is stored j * stride further on
   void evaluate(const double* points, Index stride, Index rows);
 
-  /// |L_k^-1 (z_i - m_k)|^2
+  /// Squared distances |L_k^-1 (z_i - m_k)|^2.
   [[nodiscard]] const double* distances() const { return distances_.data(); }
-  /// Of a component with its wider part.
+  /// Terms of the components, including their wider parts.
   [[nodiscard]] const double* terms() const { return terms_.data(); }
   [[nodiscard]] const double* sum() const { return sum_.data(); }
   [[nodiscard]] const double* log_scale() const { return log_scale_.data(); }
 
  private:
-  /// Whether there is a version for so few coordinates.
+  /// Whether there is a version for this small number of coordinates.
   [[nodiscard]] bool is_usual() const;
   void evaluate_by_logarithms(Index i);
 

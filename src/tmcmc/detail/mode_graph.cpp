@@ -48,7 +48,7 @@ struct Part {
   double reach = 0.0;  // median of its points
 };
 
-/// Smallest distance between a point of one and a point of the other.
+/// Smallest distance between a point of a and a point of b.
 double gap_between(const Population& white, const Part& a, const Part& b) {
   double least = infinity;
   for (const Index i : a.points) {
@@ -76,7 +76,7 @@ Eigen::VectorXd mean_of(const WeightedPoints& points, const Part& part) {
   return sum / total;
 }
 
-/// Adds the weighted squares of the deviations, and returns their weight.
+/// Adds the weighted squares of the deviations, and returns the weight of the part.
 double add_scatter(const WeightedPoints& points, const Part& part, const Eigen::VectorXd& mean,
                    Eigen::MatrixXd& scatter) {
   double total = 0.0;
@@ -110,8 +110,8 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& factor, Eigen::VectorXd b) {
   return b;
 }
 
-/// Whether the density along Fisher's discriminant falls, between the medians of both parts, to less than a fifth of that around the
-/// lower of the two.
+/// Whether the density along Fisher's discriminant falls, between the medians of both parts, to less than a
+/// fifth of the density around the lower of the two medians.
 bool is_valley_between(const WeightedPoints& points, const Part& a, const Part& b) {
   const Index d = points.white.cols();
   const Eigen::VectorXd mean_a = mean_of(points, a);

@@ -1,5 +1,5 @@
 /// \file
-/// Parts of a cloud of points with next to no points between them.
+/// Parts of a cloud of points with practically no points between them.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace tmcmc::detail {
 
-/// Points and what each stands for.
+/// Points and their weights.
 struct WeightedPoints {
-  Population white;  ///< n x d, different from each other, in coordinates in which distances mean something
+  Population white;             ///< n x d, distinct, in coordinates in which distances are meaningful
   std::vector<double> weights;  ///< n, positive, with the sum 1
 };
 
-/// The part of each point, numbered from 0, as find_modes() tells them apart.
+/// The part to which each point belongs, numbered from 0, as find_modes() separates them.
 [[nodiscard]] std::vector<Index> separate_parts(WeightedPoints points, const ModeOptions& options);
 
 }  // namespace tmcmc::detail

@@ -1,6 +1,5 @@
 /// \file
-/// What a stage does with its starts: the chains of each Move, and the adaptation of the proposal
-/// scale.
+/// The moves of a stage from its starts: the chains of each Move, and the adaptation of the proposal scale.
 #pragma once
 
 #include <vector>
@@ -11,39 +10,39 @@
 
 namespace tmcmc::detail {
 
-/// Memory of move_population(), to be reused from stage to stage.
+/// Work space of move_population(), reused from stage to stage.
 struct StageMoveWorkspace {
-  /// Present states of the chains of waste-free.
+  /// Current states of the waste-free chains.
   Walkers chains;
-  /// Where the mixing is measured.
+  /// Starts of the chains, from which the mixing is measured.
   Population starts;
 };
 
-/// The kernel of a stage; with Options::cross_fit one for each half of the starts.
+/// The kernel of a stage; with Options::cross_fit one kernel for each half of the starts.
 struct StageKernels {
-  /// One or two.
+  /// One or two kernels.
   std::vector<MetropolisKernel> kernels;
-  /// Rows of each of two kernels; empty for one.
+  /// Rows of each kernel if there are two; empty for one.
   std::vector<std::vector<Index>> rows;
 };
 
-/// What the moves of a stage did.
+/// Results of the moves of a stage.
 struct StageMoves {
-  /// Over all chains and steps.
+  /// Counts over all chains and steps.
   MoveCounts counts;
   /// See StageRecord::equilibrium_t.
   double equilibrium_t = 0.0;
-  /// Metropolis steps of each chain; of the longest one with growing chains.
+  /// Metropolis steps of each chain; with growing chains those of the longest chain.
   Index steps = 0;
 };
 
 /// Moves the starts of a stage.
 /// \param kernels  their scale is adapted (TargetAcceptance)
 /// \param steps   Metropolis steps of each chain; not used by growing chains
-/// \param most_steps  if more than `steps`, resample-move goes on after these as
-///                    ResampleMove::mixing_correlation has it
-/// \param walkers in: the starts, of growing chains in ascending order of their `ancestors`; out:
-///                the population, of waste-free (steps + 1) times as many
+/// \param most_steps  if more than `steps`, resample-move continues after `steps` steps as specified by
+///        ResampleMove::mixing_correlation
+/// \param walkers  in: the starts, which for growing chains are in ascending order of their `ancestors`; out:
+///        the population, which for waste-free has (steps + 1) times as many rows
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
                            Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work);

@@ -26,7 +26,7 @@ double weighted_product(const double* w, const double* x, double mean_x, const d
   return portable_math::sum_of(n, [=](std::size_t i) { return w[i] * ((x[i] - mean_x) * (y[i] - mean_y)); });
 }
 
-/// Sums over the rows of one column each, d.
+/// Sums over the rows, one for each of the d columns.
 template <class ColumnSum>
 Eigen::VectorXd column_sums(const Population& points, int threads, ColumnSum column_sum) {
   const auto sums = [&](Index begin, Index end) {
@@ -86,7 +86,8 @@ Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weigh
 
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
   constexpr double rounding = 1e-12;
-  // A pivot just above `rounding` is right to three digits, and so are the pivots behind it, which may come out negative.
+  // A pivot just above `rounding` is accurate to three digits, and so are the pivots after it, which may
+  // become negative.
   constexpr double rounding_behind_small_pivots = 1e-2;
   const Index d = covariance.rows();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(d, d);

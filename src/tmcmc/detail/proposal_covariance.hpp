@@ -10,7 +10,7 @@ namespace tmcmc::detail {
 /// Sigma = scale^2 sum_i w_i (theta_i - m)(theta_i - m)^T / sum_i w_i, d x d.
 /// \param points   n x d
 /// \param weights  n, non-negative, with the sum weight_sum > 0
-/// \param threads  the result does not depend on it
+/// \param threads  number of threads; the result does not depend on it
 [[nodiscard]] Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weights,
                                                   double weight_sum, double scale, Centre centre,
                                                   int threads = 1);
@@ -21,9 +21,8 @@ namespace tmcmc::detail {
 
 /// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a
 /// zero column. Plain loops, since the order of Eigen's sums depends on the instruction set.
-/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding, which
-///         without pivoting is up to 1e-2 of the variance behind a direction that is almost without
-///         one.
+/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding. Without pivoting,
+///         rounding can reach 1e-2 of the variance after a direction of almost zero variance.
 [[nodiscard]] Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance);
 
 }  // namespace tmcmc::detail

@@ -15,7 +15,7 @@ bool divides_by_sqrt_size(const ScaleRule& rule) {
   return std::holds_alternative<DimensionScale>(rule) || std::holds_alternative<TargetAcceptance>(rule);
 }
 
-/// What the options say of the proposals, but for their scale.
+/// The kernel as given by the options, without its scale.
 MetropolisKernel unfitted_kernel(const Options& options) {
   MetropolisKernel kernel;
   if (const auto* redrawn = std::get_if<RedrawnWalk>(&options.proposal)) {

@@ -8,11 +8,11 @@
 
 namespace tmcmc::detail {
 
-/// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that
-/// was fitted to the odd chains, and the other way round; unless one half of the weights is too few
-/// for its covariance. The caller sets their beta.
-/// \param weights    of the rows of `from`, with the sum weight_sum
-/// \param ancestors  row of `from` that each chain starts from
+/// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that was fitted
+/// to the odd chains, and vice versa, unless one half of the weights is too small for its covariance. The
+/// caller sets beta.
+/// \param weights  weights of the rows of `from`, with the sum weight_sum
+/// \param ancestors  row of `from` from which each chain starts
 /// \throws SamplingError if a covariance is not finite.
 [[nodiscard]] StageKernels stage_kernels(const Prior& prior, const Options& options, const State& from,
                                          ConstDoubles weights, double weight_sum,

@@ -1,6 +1,6 @@
 /// \file
-/// A log-likelihood that remembers what it has evaluated, so that a run that was stopped can be
-/// repeated without paying for it again.
+/// A log-likelihood that remembers its evaluations, so that a run that was stopped can be repeated without
+/// evaluating the same points again.
 #pragma once
 
 #include <mutex>
@@ -11,16 +11,16 @@
 
 namespace tmcmc::detail {
 
-/// Called with all that has been evaluated so far.
+/// Called with all points that have been evaluated so far.
 using EvaluationObserver = std::function<void(const Walkers& evaluated)>;
 
-/// Values of points that are known are taken from memory; others are evaluated, in calls of at most
-/// `rows` points, and remembered. Can be called from several threads.
+/// Values of known points are taken from memory; other points are evaluated, in calls of at most `rows`
+/// points, and remembered. May be called concurrently.
 class RecordedLikelihood {
  public:
-  /// \param known     points with their log-likelihoods from an earlier run
-  /// \param rows      of new points between two calls of the observer, and at most in one call
-  /// \param observer  empty for none
+  /// \param known  points with their log-likelihoods from an earlier run
+  /// \param rows  number of new points between two calls of the observer, and largest number in one call
+  /// \param observer  may be empty
   RecordedLikelihood(const LogLikelihood& log_likelihood, const Walkers& known, Index rows,
                      EvaluationObserver observer);
 
@@ -33,11 +33,11 @@ class RecordedLikelihood {
   const LogLikelihood& log_likelihood_;
   Index rows_;
   EvaluationObserver observer_;
-  /// By the bytes of a point.
+  /// Known values, by the bytes of a point.
   std::unordered_map<std::string, double> known_;
-  /// Guards what follows.
+  /// Guards the members that follow.
   std::mutex mutex_;
-  /// With room for more rows; the first count_ are in use.
+  /// Evaluated points, with room for more rows; the first count_ rows are in use.
   Walkers evaluated_;
   Index count_ = 0;
   Index observed_ = 0;

@@ -12,7 +12,7 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Total weight, and the last sample that has any.
+/// Total weight, and the last sample with positive weight.
 struct Total {
   double weight = 0.0;
   std::size_t last_positive = 0;
@@ -27,8 +27,8 @@ Total total_of(ConstDoubles weights) {
   return total;
 }
 
-/// ancestors[k]: the sample at which the cumulative weight reaches threshold(k), which has to
-/// ascend with k.
+/// Sets ancestors[k] to the sample at which the cumulative weight reaches threshold(k), which must ascend
+/// with k.
 template <class Threshold>
 void invert(ConstDoubles weights, std::size_t last_positive, std::span<Index> ancestors,
             Threshold threshold) {
@@ -53,7 +53,7 @@ void exponentials(const std::array<std::uint64_t, 4 * lanes>& words,
   }
 }
 
-/// Sorted uniforms are partial sums of exponential spacings.
+/// Multinomial resampling with sorted uniform numbers, which are partial sums of exponential spacings.
 void multinomial(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
                  std::vector<double>& partial_sums, int threads) {
   const std::size_t n = ancestors.size();
@@ -106,7 +106,7 @@ void residual(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, s
     work.residuals[i] = scale * weights[i] - copies;
     whole += static_cast<std::size_t>(copies);
   }
-  // Rounding can leave a rest without residuals, or whole copies beyond the number asked for.
+  // Rounding can leave a rest without residuals, or more whole copies than the requested number.
   const std::size_t rest = whole < ancestors.size() ? ancestors.size() - whole : 0;
   work.drawn.resize(rest);
   if (rest > 0) {

@@ -1,5 +1,5 @@
 /// \file
-/// Resampling with memory that is used again.
+/// Resampling with reusable work space.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace tmcmc::detail {
 
-/// Memory of resample(), to be reused from call to call.
+/// Work space of resample(), reused from call to call.
 struct ResamplingWorkspace {
-  /// Of the weights.
+  /// Partial sums of the weights.
   std::vector<double> partial_sums;
-  /// Of the expected numbers of copies.
+  /// Residuals of the expected numbers of copies.
   std::vector<double> residuals;
   /// Ancestors of the multinomial part.
   std::vector<Index> drawn;
 };
 
-/// As tmcmc::resample().
-/// \param threads  the result does not depend on it
+/// As tmcmc::resample(), with work space.
+/// \param threads  number of threads; the result does not depend on it
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,
               std::span<Index> ancestors, ResamplingWorkspace& work, int threads = 1);
 

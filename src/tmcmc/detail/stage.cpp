@@ -10,7 +10,7 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Equal values have to stand side by side.
+/// Number of distinct values; equal values must be adjacent.
 Index count_distinct(std::span<const Index> grouped) {
   Index distinct = grouped.empty() ? 0 : 1;
   for (std::size_t i = 1; i < grouped.size(); ++i) {
@@ -19,7 +19,7 @@ Index count_distinct(std::span<const Index> grouped) {
   return distinct;
 }
 
-/// AcceptanceLinked; without a random walk in the stage the scale stays.
+/// The scale of AcceptanceLinked; if a stage has no random walk the scale does not change.
 double linked_scale(const MoveCounts& counts, double scale) {
   return counts.walks > 0 ? 1.0 / 9.0 + 8.0 / 9.0 * static_cast<double>(counts.accepted_walks) /
                                             static_cast<double>(counts.walks)
@@ -88,7 +88,7 @@ StageRecord Stage::advance(const TemperingStep& tempering, const State& from, St
   StageRecord record;
   record.stage = from.stage + 1;
   record.beta = temperature_after(from, tempering);
-  // Rounded, so that a schedule of the betas repeats the run bit for bit.
+  // The step is rounded, so that a schedule of the betas repeats the run bit for bit.
   record.step = record.beta - from.beta;
   record.effective_sample_size = tempering.effective_sample_size;
   record.coefficient_of_variation = tempering.coefficient_of_variation;

@@ -13,10 +13,10 @@
 
 namespace tmcmc::detail {
 
-/// Takes a population from stage to stage, and owns the memory that every stage uses again.
+/// Takes a population from stage to stage, and owns the work space that the stages reuse.
 class Stage {
  public:
-  /// Non-owning view of problem and options; both must outlive it.
+  /// Stores non-owning views of problem and options; both must outlive this object.
   Stage(const Problem& problem, const Options& options, const StreamKey& key);
 
   /// One stage. `to` is overwritten; its memory is reused.
@@ -30,14 +30,14 @@ class Stage {
   const Options& options_;
   StreamKey key_;
   Mover mover_;
-  std::vector<double> weights_;   // of the rows of the population, relative to the largest
+  std::vector<double> weights_;   // weights of the rows of the population, relative to the largest
   std::vector<double> by_chain_;  // the weights in the order of the chains
-  std::vector<Index> ancestors_;  // row that each chain starts from
+  std::vector<Index> ancestors_;  // row from which each chain starts
   ResamplingWorkspace resampling_;
   StageMoveWorkspace moves_;
 };
 
-/// Temperature after a step, rounded as the stage has it.
+/// Temperature after a step, rounded as in the stage.
 [[nodiscard]] double temperature_after(const State& from, const TemperingStep& tempering);
 
 /// Number of log-likelihoods above a level.
