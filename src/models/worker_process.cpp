@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
-#include <utility>
 
 #include "io/errors.hpp"
 #include "io/interrupt.hpp"
@@ -23,20 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds longest_wait(50);  // between two looks at the interrupt flag
 constexpr std::chrono::seconds time_to_end(1);         // of a worker whose input or output has ended
-
-struct Pipe {
-  Descriptor reading;
-  Descriptor writing;
-
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) {
-      throw std::system_error(errno, std::generic_category(), "pipe2");
-    }
-    reading.reset(ends[0]);
-    writing.reset(ends[1]);
-  }
-};
 
 /// write() without SIGPIPE, which io::catch_interrupts would take for an interrupt.
 ssize_t write_quietly(int descriptor, std::string_view text) {
@@ -62,25 +47,26 @@ bool is_not_yet(int error) {
 
 }  // namespace
 
-void Descriptor::close() {
-  if (value_ >= 0) {
-    ::close(std::exchange(value_, -1));
+Pipe::Pipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) {
+    throw std::system_error(errno, std::generic_category(), "pipe2");
   }
+  reading.reset(ends[0]);
+  writing.reset(ends[1]);
 }
 
 WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments) {
-  Pipe input, output;
-  child_ = std::make_unique<Child>(arguments, directory_.path(), input.reading.get(), output.writing.get());
-  to_.reset(input.writing.release());
-  from_.reset(output.reading.release());
-  for (const Descriptor* end : {&to_, &from_}) {
-    fcntl(end->get(), F_SETFL, O_NONBLOCK);
-  }
+  child_ = std::make_unique<Child>(arguments, directory_.path(), to_.reading.get(), from_.writing.get());
+  to_.reading.close();
+  from_.writing.close();
+  fcntl(to_.writing.get(), F_SETFL, O_NONBLOCK);
+  fcntl(from_.reading.get(), F_SETFL, O_NONBLOCK);
 }
 
 WorkerProcess::~WorkerProcess() {
-  to_.close();
-  from_.close();
+  to_.writing.close();
+  from_.reading.close();
   static_cast<void>(child_->wait_until(Clock::now() + time_to_end));
 }
 
@@ -111,7 +97,7 @@ void WorkerProcess::throw_ended() {
 /// False at the end of the worker's output.
 bool WorkerProcess::receive() {
   std::array<char, 65536> bytes;
-  const ssize_t count = read(from_.get(), bytes.data(), bytes.size());
+  const ssize_t count = read(from_.reading.get(), bytes.data(), bytes.size());
   if (count > 0) {
     unread_.append(bytes.data(), static_cast<std::size_t>(count));
   }
@@ -120,7 +106,7 @@ bool WorkerProcess::receive() {
 
 /// Writes what the pipe holds and takes it from the text; false if the worker reads no more.
 bool WorkerProcess::send(std::string_view& text) {
-  const ssize_t count = write_quietly(to_.get(), text);
+  const ssize_t count = write_quietly(to_.writing.get(), text);
   text.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
   return count >= 0 || is_not_yet(errno);
 }
@@ -141,7 +127,8 @@ void WorkerProcess::exchange(std::string_view text, Clock::time_point deadline, 
       if (now >= deadline) {
         throw WorkerEnded{{ChildEnd::Kind::timed_out, 0}};
       }
-      std::array<pollfd, 2> waited{{{from_.get(), POLLIN, 0}, {text.empty() ? -1 : to_.get(), POLLOUT, 0}}};
+      std::array<pollfd, 2> waited{
+          {{from_.reading.get(), POLLIN, 0}, {text.empty() ? -1 : to_.writing.get(), POLLOUT, 0}}};
       const auto wait = std::chrono::ceil<std::chrono::milliseconds>(
           std::min<Clock::duration>(longest_wait, deadline - now));
       if (poll(waited.data(), waited.size(), static_cast<int>(wait.count())) <= 0) {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "io/descriptor.hpp"
 #include "io/scratch_directory.hpp"
 #include "models/child.hpp"
 
@@ -20,26 +20,12 @@ struct WorkerEnded {
   ChildEnd end;  ///< how
 };
 
-/// A descriptor that is closed with its owner.
-class Descriptor {
- public:
-  /// \param value  taken over; -1: none
-  explicit Descriptor(int value = -1) : value_(value) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  /// Closes it, and takes over another.
-  void reset(int value) {
-    close();
-    value_ = value;
-  }
-  /// Gives it away.
-  [[nodiscard]] int release() { return std::exchange(value_, -1); }
-  void close();                                     ///< at most once
-  [[nodiscard]] int get() const { return value_; }  ///< -1 once closed
-
- private:
-  int value_;
+/// A pipe whose ends are closed with it.
+struct Pipe {
+  /// \throws std::system_error if there are no more descriptors.
+  Pipe();
+  io::Descriptor reading;  ///< what comes out of it
+  io::Descriptor writing;  ///< what goes into it
 };
 
 /// A child that reads lines and answers with lines, in a directory of its own.
@@ -67,8 +53,8 @@ class WorkerProcess {
   bool send(std::string_view& text);
 
   io::ScratchDirectory directory_{"worker"};
-  Descriptor to_;
-  Descriptor from_;
+  Pipe to_;
+  Pipe from_;
   std::unique_ptr<Child> child_;
   std::string unread_;
 };

@@ -52,7 +52,7 @@ Counts categories_of(const std::vector<PrintedColumn>& columns) {
   return categories;
 }
 
-/// n log n of a number of runs.
+/// n log n for a number of runs n.
 double x_log_x(std::int64_t n) {
   const auto x = static_cast<double>(n);
   return n == 0 ? 0.0 : x * portable_math::log(x);
@@ -74,7 +74,7 @@ double deviance(const Counts& a, const Counts& b) {
   return 2.0 * (entropy(a) + entropy(b) - entropy(both));
 }
 
-/// Share of the sorted values that are at least as large, the value itself counted as one.
+/// Share of the sorted values that are at least as large as the value, which itself counts as one.
 double upper_share(const std::vector<double>& sorted, double value) {
   const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value - 1e-9);
   return static_cast<double>(above + 1) / static_cast<double>(sorted.size() + 1);
@@ -90,34 +90,6 @@ std::vector<StudySummary> studies_of(const std::vector<StudySummary>& studies, c
     throw errors::InvalidValue("sampler", sampler, "one with at least one replicated study");
   }
   return result;
-}
-
-std::vector<CountShare> count_shares(const std::vector<StudySummary>& studies, const PrintedCounts& printed) {
-  const auto of_sampler = studies_of(studies, printed.sampler);
-  const auto runs_of = [](const auto& counts, std::int64_t iterations) {
-    const auto found = counts.find(iterations);
-    return found == counts.end() ? std::int64_t{0} : std::int64_t{found->second};
-  };
-  std::map<std::int64_t, std::map<std::int64_t, double>> studies_with;  // iterations -> runs -> studies
-  for (const auto& cell : printed.counts) {
-    studies_with[cell.first];
-  }
-  for (const auto& study : of_sampler) {
-    for (const auto& cell : study.iterations) {
-      studies_with[cell.first];
-    }
-  }
-  std::vector<CountShare> shares;
-  for (auto& [iterations, by_runs] : studies_with) {
-    for (const auto& study : of_sampler) {
-      by_runs[runs_of(study.iterations, iterations)] += 1.0;
-    }
-    for (const auto& [runs, number] : by_runs) {
-      shares.push_back({iterations, runs, number / static_cast<double>(of_sampler.size()),
-                        runs_of(printed.counts, iterations)});
-    }
-  }
-  return shares;
 }
 
 std::vector<StudySummary> null_studies(const std::vector<StudySummary>& studies, const std::string& sampler,

@@ -74,14 +74,15 @@ TEST_CASE("cells have their places among the studies, and all together their tes
 
 TEST_CASE("shares of studies by their runs of so many iterations add up to 1", "[comparison]") {
   const std::string sampler = "A";
-  std::vector<StudySummary> three(3);
-  for (auto& study : three) {
-    study.sampler = sampler;
+  std::vector<StudySummary> studies(4);  // the last one of another sampler
+  for (std::size_t k = 0; k < 3; ++k) {
+    studies[k].sampler = sampler;
   }
-  three[0].iterations = {{9, 4}, {10, 46}};
-  three[1].iterations = {{10, 46}, {11, 4}};
-  three[2].iterations = {{10, 50}};
-  const auto shares = count_shares(three, {"A", {{10, 42}, {12, 8}}});
+  studies[0].iterations = {{9, 4}, {10, 46}};
+  studies[1].iterations = {{10, 46}, {11, 4}};
+  studies[2].iterations = {{10, 50}};
+  studies[3].iterations = {{13, 50}};
+  const auto shares = count_shares(studies, {"A", {{10, 42}, {12, 8}}});
   std::map<std::int64_t, double> sums;
   for (const auto& share : shares) {
     sums[share.iterations] += share.share_of_studies;
@@ -94,7 +95,7 @@ TEST_CASE("shares of studies by their runs of so many iterations add up to 1", "
   CHECK((shares[2].iterations == 10 && shares[2].runs == 46 && shares[2].printed == 42));
   CHECK(shares[2].share_of_studies == Approx(2.0 / 3.0));
   CHECK((shares[6].iterations == 12 && shares[6].runs == 0 && shares[6].printed == 8));
-  CHECK_THROWS_AS(count_shares(three, {"B", {}}), errors::InvalidValue);
+  CHECK_THROWS_AS(count_shares(studies, {"B", {}}), errors::InvalidValue);
 }
 
 TEST_CASE("each reading is named once and changes what it says", "[comparison]") {

