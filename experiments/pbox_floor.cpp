@@ -47,7 +47,7 @@ void write_growth(OptionalCsv& csv, const estimation::ExactPosterior& posterior,
   for (const long runs : {10, 50, 200}) {
     for (const long samples : {1000, 4000, 16000}) {
       std::vector<Areas> areas;
-      for (const std::uint32_t study : {0, 1, 2}) {
+      for (const std::uint32_t study : {0U, 1U, 2U}) {
         areas.push_back(replication::exact_areas(posterior, seed, study, runs, samples));
       }
       csv.row(runs, samples, quantile_of(areas, 0.5));
