@@ -44,6 +44,17 @@ Problem five_modes() {
           BoxPrior(Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(10.0, 10.0))};
 }
 
+/// Two normal modes in ten coordinates with the masses 3/4 and 1/4, which one search or both lose in most runs.
+Problem two_far_modes() {
+  return {problems::by_rows([](const auto& x) {
+            const double first = -2.0 * (x.array() - 4.0).square().sum();
+            const double second = -2.0 * (x.array() + 4.0).square().sum();
+            const double largest = std::max(first, second);
+            return largest + std::log(0.75 * std::exp(first - largest) + 0.25 * std::exp(second - largest));
+          }),
+          BoxPrior(Eigen::VectorXd::Constant(10, -10.0), Eigen::VectorXd::Constant(10, 10.0))};
+}
+
 /// A wide normal with a tenth of the mass, and a spike with the rest.
 Problem slab_and_spike(double spike_width) {
   return {problems::by_rows([=](const auto& x) {
@@ -245,6 +256,22 @@ TEST_CASE("Few effective draws behind the choice of beta are warned of where the
     CHECK_FALSE(
         warns(tmcmc::run(normal(), by_draws(5000), {.seed = 11, .run = run}), WarningKind::few_draws_a_mode));
   }
+}
+
+TEST_CASE("A part of the posterior where one search has hardly drawn is warned of") {
+  CHECK(warns(tmcmc::run(two_far_modes(), by_draws(), {.seed = 14}), WarningKind::searches_differ));
+  CHECK_FALSE(warns(tmcmc::run(normal(), by_draws(), {.seed = 14}), WarningKind::searches_differ));
+}
+
+TEST_CASE("Draws of one density have the weights of that density, with the share of the prior in it") {
+  const auto problem = normal();
+  ReferenceDensity reference{.prior_share = 0.5};
+  reference.fitted.weights = Eigen::VectorXd::Ones(1);
+  reference.fitted.means = Eigen::MatrixXd::Zero(2, 1);
+  reference.fitted.factors = {Eigen::MatrixXd::Identity(2, 2)};
+  const auto draws = draw_and_evaluate(problem, reference, 200, {.seed = 15}, 0);
+  const Eigen::VectorXd expected = draws.log_prior - log_density(reference, draws.z, draws.log_prior);
+  CHECK((log_prior_weights(draws) - expected).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("Few draws of the searches are warned of, however simple the posterior") {
