@@ -13,7 +13,8 @@ namespace replication {
 namespace {
 
 /// The result of each rule for a population; beta after the stage is not known yet.
-StageUnderBothRules stage_of(const tmcmc::State& state, const tmcmc::Criterion& cov,
+/// \param step_cov  the step that the criterion `cov` chooses
+StageUnderBothRules stage_of(const tmcmc::State& state, double step_cov, const tmcmc::Criterion& cov,
                              const tmcmc::Criterion& ess) {
   const auto log_likelihood = tmcmc::as_span(state.log_likelihood);
   const auto step = [&](const tmcmc::Criterion& criterion) {
@@ -22,7 +23,7 @@ StageUnderBothRules stage_of(const tmcmc::State& state, const tmcmc::Criterion& 
   auto sample = cov;
   sample.deviation = tmcmc::Deviation::sample;
   StageUnderBothRules stage{
-      .beta = state.beta, .step_cov = step(cov), .step_ess = step(ess), .step_cov_sample = step(sample)};
+      .beta = state.beta, .step_cov = step_cov, .step_ess = step(ess), .step_cov_sample = step(sample)};
   stage.effective_sample_size = tmcmc::effective_sample_size(log_likelihood, stage.step_cov);
   stage.coefficient_of_variation = tmcmc::coefficient_of_variation(log_likelihood, stage.step_cov);
   stage.samples_over_one_plus_cov_squared =
@@ -43,8 +44,10 @@ RunUnderBothRules run_under_both_rules(const tmcmc::Problem& problem, const tmcm
   constexpr double rounding = 1e-9;
   RunUnderBothRules run;
   const auto both_rules = [&](const tmcmc::State& state) {
-    run.stages.push_back(stage_of(state, by_cov.criterion, by_ess.criterion));
-    return tmcmc::choose_step(tmcmc::as_span(state.log_likelihood), 1.0 - state.beta, by_cov.criterion);
+    auto chosen =
+        tmcmc::choose_step(tmcmc::as_span(state.log_likelihood), 1.0 - state.beta, by_cov.criterion);
+    run.stages.push_back(stage_of(state, chosen.step, by_cov.criterion, by_ess.criterion));
+    return chosen;
   };
   const auto first = tmcmc::run(problem, by_cov, key, {}, both_rules).stages;
   const auto second = tmcmc::run(problem, by_ess, key).stages;
