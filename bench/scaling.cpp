@@ -41,8 +41,8 @@ friction::Observations synthetic_observations(long count) {
 
 Measurement measure(const Setting& s) {
   const auto reading = replication::reading(replication::ReadingName::as_published);
-  const auto problem = interruptible(
-      replication::problem(reading, synthetic_observations(s.observations), prior_for({}, reading)));
+  const auto problem = interruptible(replication::problem(reading, synthetic_observations(s.observations),
+                                                          prior_for(InputFiles(), reading)));
   auto arms = replication::paper_arms(reading);
   for (auto& arm : arms) {
     arm.options.samples = s.samples;

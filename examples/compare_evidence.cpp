@@ -1,10 +1,10 @@
 // Compares models of the same data by their evidence: log-evidences with their errors, Bayes factors against the best model, and
 // posterior probabilities of the models (Kass and Raftery 1995), from the files that own_model --netcdf writes.
 
-#include "run.hpp"
+#include "command_line/report.hpp"
 #include "storage/compare.hpp"
 
-using namespace experiments;
+using namespace command_line;
 
 int main(int argc, char** argv) {
   CLI::App app("Compares models of the same data by their evidence.", "compare_evidence");

@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "command_line/report.hpp"
 #include "io/errors.hpp"
 #include "io/interrupt.hpp"
-#include "run.hpp"
 
 namespace examples {
 
 tmcmc::Result run_kept(const storage::RunDescription& run, const tmcmc::LogLikelihood& model,
                        const std::string& checkpoint, const tmcmc::Observer& observer) {
-  const auto problem = experiments::interruptible({model, run.prior});
+  const auto problem = command_line::interruptible({model, run.prior});
   if (checkpoint.empty()) {
     return tmcmc::run(problem, run.options, run.key, observer);
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "errors/invalid_value.hpp"
+#include "io/csv.hpp"
 #include "models/forward_model.hpp"
 #include "models/parallel_batches.hpp"
 #include "models/program.hpp"

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "build_info.hpp"
-#include "corner_tables.hpp"
+#include "command_line/build_info.hpp"
+#include "command_line/corner_tables.hpp"
 #include "io/interrupt.hpp"
 #include "models/child.hpp"
 
@@ -13,8 +13,8 @@ namespace examples {
 namespace {
 
 /// Samples of all runs, each of which has the same weight.
-experiments::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior) {
-  experiments::CornerSamples samples;
+command_line::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const tmcmc::Prior& prior) {
+  command_line::CornerSamples samples;
   samples.names = prior.names();
   samples.columns.resize(samples.names.size());
   for (const auto& run : runs) {
@@ -31,7 +31,7 @@ experiments::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const 
 
 /// Writes the stages. The rounds of a search, of which a run of independent draws consists, have neither
 /// acceptance rate nor evidence.
-void write_stages(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
+void write_stages(command_line::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const bool is_search = runs[r].measurement.has_value();
@@ -74,12 +74,12 @@ OwnFigures::OwnFigures(std::string directory) : directory_(std::move(directory))
 
 /// Draws a figure and returns whether it was drawn; warns if not.
 bool OwnFigures::draw(const std::string& figure) const {
-  const std::string& source = experiments::source_directory();
+  const std::string& source = command_line::source_directory();
   const auto end =
       models::run_child({source + "/figures/draw", figure, directory_, directory_}, source, 60.0);
   const bool is_drawn = end.kind == models::ChildEnd::Kind::exited && end.value == 0;
   if (!is_drawn) {
-    experiments::warn(fmt::format(
+    command_line::warn(fmt::format(
         "{}: not drawn within a minute: expected gnuplot (make deps); the tables are there", path(figure)));
   }
   return is_drawn;
@@ -87,22 +87,22 @@ bool OwnFigures::draw(const std::string& figure) const {
 
 void OwnFigures::make(const std::vector<tmcmc::Result>& runs, const Model& model, long draws,
                       const std::function<void(tmcmc::Index)>& begin,
-                      const experiments::Report& report) const {
+                      const command_line::Report& report) const {
   if (directory_.empty()) {
     return;
   }
   constexpr long bins = 30;
-  experiments::CornerTables tables(path("corner.csv"), path("corner_marginals.csv"),
-                                   path("corner_summary.csv"));
-  auto stages = experiments::open_csv(path("stages.csv"), {"run", "stage", "beta", "effective_sample_size",
-                                                           "acceptance_rate", "log_evidence"});
+  command_line::CornerTables tables(path("corner.csv"), path("corner_marginals.csv"),
+                                    path("corner_summary.csv"));
+  auto stages = command_line::open_csv(path("stages.csv"), {"run", "stage", "beta", "effective_sample_size",
+                                                            "acceptance_rate", "log_evidence"});
   tables.write(pooled(runs, model.prior), bins);
   write_stages(stages, runs);
   io::commit_all(tables.joint, tables.marginals, tables.summary, stages);
   bool is_drawn = draw("samples_corner") && draw("samples_marginals") && draw("samples_stages");
   if (model.compared.outputs && draws > 0) {
     const Prediction prediction = predict_last(runs, model, draws, begin);
-    auto csv = experiments::open_csv(path("predictive.csv"), prediction_columns());
+    auto csv = command_line::open_csv(path("predictive.csv"), prediction_columns());
     write_prediction(csv, prediction);
     io::commit_all(csv);
     print_prediction(report, prediction);

@@ -26,7 +26,7 @@ class OwnFigures {
   /// \throws io::OutputError; if the model fails or a signal is received, std::runtime_error or
   ///         io::Interrupted, which say that everything else is in place
   void make(const std::vector<tmcmc::Result>& runs, const Model& model, long draws,
-            const std::function<void(tmcmc::Index)>& begin, const experiments::Report& report) const;
+            const std::function<void(tmcmc::Index)>& begin, const command_line::Report& report) const;
 
  private:
   [[nodiscard]] std::string path(const std::string& name) const { return directory_ + "/" + name; }

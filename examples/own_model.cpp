@@ -20,7 +20,7 @@
 #include "tmcmc/diagnostics.hpp"
 
 using namespace examples;
-using namespace experiments;
+using namespace command_line;
 
 namespace {
 

@@ -6,11 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "command_line/report.hpp"
 #include "friction/angle.hpp"
 #include "friction/likelihood.hpp"
-#include "inputs.hpp"
 #include "models/parallel_batches.hpp"
 #include "other_program.hpp"
+#include "replication/inputs.hpp"
 #include "shear_frame.hpp"
 
 namespace examples {
@@ -80,7 +81,11 @@ ComparedOutputs rig_outputs(const friction::Observations& measured, const fricti
 }
 
 Model friction_rig(const ProblemOptions& options) {
-  const auto measured = experiments::read_observations(measurements_file(options));
+  const std::string path = measurements_file(options);
+  const auto measured = replication::read_observations(path);
+  if (const auto doubt = friction::doubtful_unit_or_sign(measured.phase_deg); !doubt.empty()) {
+    command_line::warn(fmt::format("{}: column 'phase_deg': {}", io::printable(path, 200), doubt));
+  }
   const friction::Physics physics{.driving_force_n = options.driving_force_n};
   std::string description =
       fmt::format("friction, driving force {} N", io::format_number(options.driving_force_n));

@@ -92,23 +92,23 @@ const std::vector<std::string>& prediction_columns() {
   return columns;
 }
 
-void write_prediction(experiments::OptionalCsv& csv, const Prediction& prediction) {
+void write_prediction(command_line::OptionalCsv& csv, const Prediction& prediction) {
   for (const auto& [quantity, number, label, observed, band] : prediction.measurements) {
-    std::vector<std::string> cells{experiments::digits(band.median)};
+    std::vector<std::string> cells{command_line::digits(band.median)};
     const double ends[] = {band.model.low, band.model.high, band.measurement.low, band.measurement.high};
     for (const double end : ends) {
-      cells.push_back(experiments::digits(end));
+      cells.push_back(command_line::digits(end));
     }
-    cells.push_back(experiments::digits(band.probability_below));
-    cells.push_back(experiments::digits((observed - band.median) / band.standard_deviation));
+    cells.push_back(command_line::digits(band.probability_below));
+    cells.push_back(command_line::digits((observed - band.median) / band.standard_deviation));
     for (const double end : ends) {
-      cells.push_back(experiments::digits((end - band.median) / band.standard_deviation));
+      cells.push_back(command_line::digits((end - band.median) / band.standard_deviation));
     }
     csv.row(quantity, number, label, observed, cells);
   }
 }
 
-void print_prediction(const experiments::Report& report, const Prediction& prediction) {
+void print_prediction(const command_line::Report& report, const Prediction& prediction) {
   const auto inside =
       std::count_if(prediction.measurements.begin(), prediction.measurements.end(), [](const auto& m) {
         return m.observed >= m.band.measurement.low && m.observed <= m.band.measurement.high;

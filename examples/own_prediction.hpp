@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "command_line/report.hpp"
 #include "own_models.hpp"
-#include "run.hpp"
 #include "statistics/predictive_band.hpp"
 
 namespace examples {
@@ -41,9 +41,9 @@ struct Prediction {
 /// Columns of predictive.csv, and its rows: each measurement with its band, and the same less the median in standard deviations of a
 /// new measurement (the columns that end in _score).
 [[nodiscard]] const std::vector<std::string>& prediction_columns();
-void write_prediction(experiments::OptionalCsv& csv, const Prediction& prediction);
+void write_prediction(command_line::OptionalCsv& csv, const Prediction& prediction);
 
 /// Prints how many measurements lie in their bands, and the cost of the prediction.
-void print_prediction(const experiments::Report& report, const Prediction& prediction);
+void print_prediction(const command_line::Report& report, const Prediction& prediction);
 
 }  // namespace examples

@@ -8,16 +8,16 @@
 #include <cmath>
 #include <type_traits>
 
+#include "command_line/build_info.hpp"
 #include "errors/invalid_value.hpp"
-#include "inputs.hpp"
 #include "own_models.hpp"
 
 namespace examples {
 
 namespace {
 
-using experiments::count;
-using experiments::option_of;
+using command_line::count;
+using command_line::option_of;
 
 constexpr long default_chains = 100;
 /// Options of the sampler that have keys of their own.
@@ -25,7 +25,7 @@ const std::vector<std::string> no_sampler_options = {"evaluation_budget", "threa
                                                      "diagnose"};
 
 CLI::Validator any_text() {
-  return experiments::normalising([](const std::string& word) { return std::optional(word); }, "");
+  return command_line::normalising([](const std::string& word) { return std::optional(word); }, "");
 }
 
 }  // namespace
@@ -57,8 +57,8 @@ ProblemOptions::Key& ProblemOptions::add(CLI::App& app, const char* table, const
 ProblemOptions::ProblemOptions(CLI::App& app) {
   app.add_option("problem", path_, "Problem file in TOML; what the command line says too is taken from there")
       ->type_name("TOML");
-  observations = experiments::example("frame_observations.csv");
-  prior.marginals = experiments::example("frame_prior.csv");
+  observations = command_line::data_file("examples", "frame_observations.csv");
+  prior.marginals = command_line::data_file("examples", "frame_prior.csv");
   add_model(app);
   add_data_and_prior(app);
   add_run_and_outputs(app);
@@ -69,8 +69,8 @@ ProblemOptions::ProblemOptions(CLI::App& app) {
 void ProblemOptions::add_model(CLI::App& app) {
   const CLI::Validator text = any_text();
   add(app, "model", "built_in", "--built-in", built_in, CLI::detail::join(built_in_names(), "|"),
-      experiments::one_of(built_in_names()), "Model in C++");
-  add(app, "model", "driving_force", "--driving-force", driving_force_n, "", experiments::positive(),
+      command_line::one_of(built_in_names()), "Model in C++");
+  add(app, "model", "driving_force", "--driving-force", driving_force_n, "", command_line::positive(),
       "k Y_b of the model friction, N");
   add(app, "model", "command", "--command", command, "PROGRAM", text,
       "Program that computes a batch: PROGRAM points.csv log_likelihoods.csv");
@@ -82,7 +82,7 @@ void ProblemOptions::add_model(CLI::App& app) {
   add(app, "model", "config", "--config", config, "JSON", text,
       "Object that is passed to it; in the problem file a table");
   add(app, "model", "timeout", "--timeout", timeout_seconds, "",
-      experiments::number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"),
+      command_line::number([](double x) { return x >= 0.0 && std::isfinite(x); }, "a number of at least 0"),
       "Most seconds of one call of the program; 0: no limit");
   add(app, "model", "parallel", "--parallel", parallel, "", count(1, 4096),
       "Calls of the program at a time; without it as many as --threads");
@@ -118,7 +118,7 @@ void ProblemOptions::add_run_and_outputs(CLI::App& app) {
       "Budget of log-likelihoods of a run");
   add(app, "run", "runs", "--runs", runs, "", count(1, 1000),
       "Independent runs, which differ in their random numbers");
-  add(app, "run", "seed", "--seed", seed, "", experiments::seed(), "Seed of the random streams");
+  add(app, "run", "seed", "--seed", seed, "", command_line::seed(), "Seed of the random streams");
   add(app, "run", "threads", "--threads", threads, "", count(0, 4096),
       "Threads; 0: as many as the machine has. Results do not depend on it");
   add(app, "output", "samples", "--output", output, "FILE", text,
@@ -145,8 +145,8 @@ void ProblemOptions::add_sampler(CLI::App& app) {
   for (const tmcmc::OptionText& row : tmcmc::option_table()) {
     const std::string name(row.name), option = option_of(row.name);
     if (std::find(no_sampler_options.begin(), no_sampler_options.end(), name) == no_sampler_options.end()) {
-      Key& key = add(app, "sampler", name.c_str(), option.c_str(), sampler_[name], experiments::type_of(row),
-                     experiments::check_of(row), std::string(row.help));
+      Key& key = add(app, "sampler", name.c_str(), option.c_str(), sampler_[name], command_line::type_of(row),
+                     command_line::check_of(row), std::string(row.help));
       key.is_number = row.values.empty();
     }
   }
@@ -205,7 +205,7 @@ tmcmc::Options ProblemOptions::sampler() const {
     throw errors::InvalidValue(fmt::format("{}: value '{}'", place(name), error.value()), "",
                                error.expected());
   }
-  experiments::set_sampler_options(options, given, place);
+  command_line::set_sampler_options(options, given, place);
   options.threads = thread_count();
   return options;
 }

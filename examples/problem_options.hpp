@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "options.hpp"
+#include "command_line/checks.hpp"
+#include "command_line/sampler_options.hpp"
 #include "problem/node.hpp"
 #include "problem/prior_file.hpp"
 #include "tmcmc/options.hpp"

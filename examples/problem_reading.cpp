@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/csv.hpp"
 #include "problem_options.hpp"
 
 namespace examples {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "build_info.hpp"
+#include "command_line/build_info.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/modes.hpp"
 
@@ -17,7 +17,7 @@ using tmcmc::Index;
 namespace {
 
 /// Prints the separate modes of a run, if there are several.
-void print_modes(const experiments::Report& report, const std::vector<ParameterSummary>& names,
+void print_modes(const command_line::Report& report, const std::vector<ParameterSummary>& names,
                  const tmcmc::Result& run, const std::string& of_run) {
   const auto found = tmcmc::find_modes(run);
   if (found.modes.size() < 2) {
@@ -40,7 +40,7 @@ void print_modes(const experiments::Report& report, const std::vector<ParameterS
 
 }  // namespace
 
-void print_summary(const experiments::Report& report, const std::vector<ParameterSummary>& summary,
+void print_summary(const command_line::Report& report, const std::vector<ParameterSummary>& summary,
                    const std::vector<tmcmc::Result>& runs) {
   std::size_t width = std::string("parameter").size();
   for (const auto& row : summary) {
@@ -78,7 +78,7 @@ const std::vector<std::string>& summary_columns() {
   return columns;
 }
 
-void write_summary(experiments::OptionalCsv& csv, const std::vector<ParameterSummary>& summary) {
+void write_summary(command_line::OptionalCsv& csv, const std::vector<ParameterSummary>& summary) {
   for (const auto& row : summary) {
     csv.row(row.name, row.unit, row.mean, row.sd, row.quantile_5, row.median, row.quantile_95,
             row.effective_sample_size, row.r_hat);
@@ -94,7 +94,7 @@ std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs) {
   return columns;
 }
 
-void write_samples(experiments::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
+void write_samples(command_line::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto& samples = runs[r].final;
     for (const Index i : equal_rows(runs[r], equal_draws(runs[r]))) {
@@ -155,7 +155,7 @@ storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs, co
     data.pointwise_log_likelihood = model.measurements.pointwise(data.samples);
   }
   data.texts = {{"inference_library", "tmcmc_companion"},
-                {"inference_library_version", experiments::version()},
+                {"inference_library_version", command_line::version()},
                 {"seed", std::to_string(seed)}};
   const auto evidence = mean_evidence(runs);
   data.numbers = {{"beta", runs.front().final.beta},

@@ -4,58 +4,13 @@
 // the prior of the reading that made the study. Tables 3 and 4: p-box areas and iteration counts of the
 // sampling study.
 
-#include <algorithm>
-#include <cmath>
-
 #include "inputs.hpp"
 #include "replication/comparison.hpp"
 
 using namespace experiments;
+using replication::ComparedCell;
 
 namespace {
-
-using Cell = replication::ComparedCell;
-
-/// The position of the cell among replicated studies, as far as it is known.
-std::string place_of(const Cell& cell) {
-  std::string text;
-  if (!std::isnan(cell.median)) {
-    text +=
-        fmt::format("studies {:.4g} ({:.4g} to {:.4g})", cell.median, cell.interval.low, cell.interval.high);
-  }
-  if (!std::isnan(cell.printed_percentile)) {
-    text += fmt::format(", percentiles {:.1f} and {:.1f}", cell.printed_percentile, cell.our_percentile);
-  }
-  if (!std::isnan(cell.p.value)) {
-    text +=
-        fmt::format("{}p = {:.2g} +- {:.1g}", text.empty() ? "" : ", ", cell.p.value, cell.p.standard_error);
-  }
-  return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
-}
-
-/// The number as text; blank if there is none.
-std::string number_text(double x, const char* format = "{:.5g}") {
-  return std::isnan(x) ? "" : fmt::format(fmt::runtime(format), x);
-}
-
-/// The report: each table with one row per cell.
-std::string text_of(const std::vector<Cell>& cells) {
-  std::string text;
-  std::string table;
-  for (const Cell& cell : cells) {
-    if (cell.table != table) {
-      table = cell.table;
-      text += fmt::format("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column",
-                          "printed", "ours", "difference", "among replicated studies");
-    }
-    const std::string place = place_of(cell);
-    text +=
-        fmt::format("  {:<24} {:<22} {:>12} {:>12} {:>12}{}{}\n", cell.row, cell.column,
-                    number_text(cell.printed), number_text(cell.ours),
-                    number_text(replication::difference(cell), "{:+.3g}"), place.empty() ? "" : "  ", place);
-  }
-  return text;
-}
 
 /// Opens the file and writes the text, unless the path is empty.
 void write_text(std::optional<io::OutputFile>& file, const std::string& path, const std::string& text) {
@@ -98,26 +53,14 @@ int main(int argc, char** argv) {
     const auto printed = [&](const std::string& file) {
       return io::CsvTable::read(printed_directory + "/" + file);
     };
-    std::vector<Cell> cells;
-    replication::compare(cells, "Table 1", "index",
-                         {"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"},
-                         printed("table1_observations.csv"), io::CsvTable::read(table1), Cell::unknown);
+    std::vector<ComparedCell> cells;
+    replication::compare(
+        cells, "Table 1", "index", {"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"},
+        printed("table1_observations.csv"), io::CsvTable::read(table1), ComparedCell::unknown);
     const auto prior = prior_for(inputs, physics.reading());
-    const auto printed_prior = read_prior(printed_directory + "/table2_prior.csv");
-    for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
-      const auto row = static_cast<Eigen::Index>(j);
-      const auto add = [&](const char* bound, double printed_bound, double our_bound) {
-        cells.push_back({.table = "Table 2",
-                         .row = parameter_columns[j],
-                         .column = bound,
-                         .printed = printed_bound,
-                         .ours = our_bound});
-      };
-      add("lower", printed_prior.lower()[row], prior.lower()[row]);
-      add("upper", printed_prior.upper()[row], prior.upper()[row]);
-    }
+    replication::compare_bounds(cells, read_prior(printed_directory + "/table2_prior.csv"), prior);
     replication::compare(cells, "Table 3", "sampler", {"friction_force_n", "natural_frequency_hz"},
-                         printed("table3_pbox_area.csv"), io::CsvTable::read(table3), Cell::unknown);
+                         printed("table3_pbox_area.csv"), io::CsvTable::read(table3), ComparedCell::unknown);
     const auto printed_counts = printed("table4_iteration_counts.csv");
     const auto our_counts = io::CsvTable::read(table4);
     for (const auto* table : {&printed_counts, &our_counts}) {
@@ -134,14 +77,14 @@ int main(int argc, char** argv) {
     }
     auto csv = open_csv(output, {"table", "row", "column", "printed", "ours", "difference", "median", "low",
                                  "high", "printed_percentile", "our_percentile", "p", "p_error", "verdict"});
-    for (const Cell& cell : cells) {
+    for (const ComparedCell& cell : cells) {
       csv.row(cell.table, cell.row, cell.column, cell.printed, cell.ours, replication::difference(cell),
               cell.median, cell.interval.low, cell.interval.high, cell.printed_percentile,
               cell.our_percentile, cell.p.value, cell.p.standard_error, cell.verdict);
     }
     std::optional<io::OutputFile> markdown_file;
     write_text(markdown_file, markdown_output, replication::comparison_markdown(cells));
-    const std::string text = text_of(cells);
+    const std::string text = replication::comparison_text(cells);
     std::optional<io::OutputFile> report_file;
     write_text(report_file, text_output, text);
     report("{}", text);

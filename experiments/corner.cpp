@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "corner_tables.hpp"
+#include "command_line/corner_tables.hpp"
 #include "inputs.hpp"
 
 using namespace experiments;

@@ -4,6 +4,7 @@
 // Data: the reader's points; for the log-likelihood the observations of Table 1 or the reader's own.
 
 #include <algorithm>
+#include <iterator>
 
 #include "inputs.hpp"
 #include "replication/model_tables.hpp"
@@ -40,26 +41,28 @@ int main(int argc, char** argv) {
       }
       table.require_columns({"natural_frequency_hz", "phase_noise_deg", "frequency_ratio_noise"});
     }
-    std::vector<std::string> columns;
-    for (const auto& name : table.column_names()) {
-      const bool replaced = (with_phase && (name == "phase_deg" || name == "limit_force_ratio")) ||
-                            (with_likelihood && name == "log_likelihood");
-      if (!replaced) {
-        columns.push_back(name);
-      }
-    }
-    const std::vector<std::string> kept = columns;
-    replication::Phases phase_columns;
-    std::vector<double> log_likelihood;
+    std::vector<std::pair<std::string, std::vector<double>>> results;
     if (with_phase) {
-      phase_columns = replication::phases(table, reading.physics);
-      columns.insert(columns.end(), {"phase_deg", "limit_force_ratio"});
+      const auto phases = replication::phases(table, reading.physics);
+      results.emplace_back("phase_deg", phases.phase_deg);
+      results.emplace_back("limit_force_ratio", phases.limit_force_ratio);
     }
     if (with_likelihood) {
-      log_likelihood = replication::log_likelihoods(
-          table, friction::Likelihood(read_observations(inputs.observations), reading.physics,
-                                      reading.infeasible_log_likelihood));
-      columns.push_back("log_likelihood");
+      results.emplace_back(
+          "log_likelihood",
+          replication::log_likelihoods(
+              table, friction::Likelihood(read_observations(inputs.observations), reading.physics,
+                                          reading.infeasible_log_likelihood)));
+    }
+    std::vector<std::string> columns;
+    std::copy_if(table.column_names().begin(), table.column_names().end(), std::back_inserter(columns),
+                 [&](const auto& name) {
+                   return std::none_of(results.begin(), results.end(),
+                                       [&](const auto& result) { return result.first == name; });
+                 });
+    const std::vector<std::string> kept = columns;
+    for (const auto& result : results) {
+      columns.push_back(result.first);
     }
     io::CsvWriter csv(output, columns);
     for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -67,12 +70,8 @@ int main(int argc, char** argv) {
       for (const auto& name : kept) {
         cells.emplace_back(table.cell(row, name));
       }
-      if (with_phase) {
-        cells.push_back(io::format_number(phase_columns.phase_deg[row]));
-        cells.push_back(io::format_number(phase_columns.limit_force_ratio[row]));
-      }
-      if (with_likelihood) {
-        cells.push_back(io::format_number(log_likelihood[row]));
+      for (const auto& result : results) {
+        cells.push_back(io::format_number(result.second[row]));
       }
       csv.row(cells);
     }

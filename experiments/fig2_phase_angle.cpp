@@ -6,7 +6,7 @@
 
 #include "estimation/least_squares.hpp"
 #include "inputs.hpp"
-#include "statistics/summary.hpp"
+#include "replication/model_checks.hpp"
 
 using namespace experiments;
 
@@ -36,18 +36,16 @@ int main(int argc, char** argv) {
                                  "phase_fitted_deg", "fitted_force_n"});
     double continuous_from = highest;
     double smallest_limit = std::numeric_limits<double>::infinity();
-    for (const double r : statistics::evenly_spaced(lowest, highest, points)) {
-      if (friction::is_singular_ratio(r)) {
-        continue;
+    for (const auto& p :
+         replication::phase_curves(lowest, highest, points, friction_force, fitted_force, reading.physics)) {
+      if (!std::isnan(p.phase_deg)) {
+        continuous_from = std::min(continuous_from, p.frequency_ratio);
       }
-      const auto c = friction::response_constants(r, reading.physics);
-      const double phase = friction::phase_deg(c, friction_force / reading.physics.driving_force_n);
-      if (!std::isnan(phase) && r < continuous_from) {
-        continuous_from = r;
+      if (p.frequency_ratio >= 0.6) {
+        smallest_limit = std::min(smallest_limit, p.limit_force_ratio);
       }
-      smallest_limit = std::min(smallest_limit, r >= 0.6 ? c.limit_force_ratio : smallest_limit);
-      csv.row(r, phase, friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio,
-              friction::phase_deg(c, fitted_force / reading.physics.driving_force_n), fitted_force);
+      csv.row(p.frequency_ratio, p.phase_deg, p.boundary_phase_deg, p.limit_force_ratio, p.phase_fitted_deg,
+              fitted_force);
     }
     io::commit_all(csv);
     report("F_mu = {} N (force ratio {:.4f}): continuous motion from r = {:.3f} on\n", friction_force,

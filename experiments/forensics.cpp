@@ -8,7 +8,6 @@
 #include "replication/forensics.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "inputs.hpp"
 
@@ -108,21 +107,8 @@ int main(int argc, char** argv) {
       pairs_csv.row(names[p.first], names[p.second], p.first, p.second, p.log_density,
                     p.log_density - found.pairs.front().log_density, p.p.value, p.p.standard_error, p.weight);
     }
-    if (summary_csv) {
-      const auto best =
-          std::max_element(found.pairs.begin(), found.pairs.end(),
-                           [](const auto& a, const auto& b) { return a.log_density < b.log_density; });
-      summary_csv->row("studies of each setting", studies, "nan");
-      summary_csv->row("pairs", found.number_of_pairs, "nan");
-      summary_csv->row("log of the pairs", digits(std::log(found.number_of_pairs), 6), "nan");
-      summary_csv->row("fewest steps", 2, "nan");
-      summary_csv->row("most steps", 5, "nan");
-      summary_csv->row("best first", names[best->first], "nan");
-      summary_csv->row("best second", names[best->second], "nan");
-      summary_csv->row("gain", found.gain, "nan");
-      summary_csv->row("p of the best pair", best->p.value, best->p.standard_error);
-      summary_csv->row("weight of the best pair", best->weight, "nan");
-      summary_csv->row("p of the search", found.search_p.value, found.search_p.standard_error);
+    for (const auto& s : replication::search_statistics(found, names, studies)) {
+      summary_csv.row(s.quantity, s.value, s.standard_error);
     }
     io::commit_all(csv, pairs_csv, summary_csv);
   });

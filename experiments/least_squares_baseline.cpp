@@ -4,8 +4,6 @@
 //
 // Data: Table 1 as printed, or the reader's own measurements.
 
-#include <cmath>
-
 #include "estimation/least_squares.hpp"
 #include "inputs.hpp"
 
@@ -55,17 +53,15 @@ int main(int argc, char** argv) {
     report_fit(report, "F_mu", "N", fit.friction_force);
     report_fit(report, "omega_n", "Hz", fit.natural_frequency);
     report("largest log-likelihood {}\n", or_undefined("{:.4f}", fit.log_likelihood()));
-    const double n = static_cast<double>(observations.size());
     const auto write = [&](const std::string& location, const std::string& noise,
                            const estimation::BlockFit& block) {
       csv.row(location, digits(block.estimate), digits(block.standard_error), digits(block.standard_error_ml),
               block.noise_given, digits(block.chi_squared), digits(block.reduced_chi_squared),
               block.iterations, block.starts, block.agreed, block.distinct_minima, block.at_bound ? 1 : 0);
-      // Fisher information of a Normal standard deviation: 2 n / sigma^2.
-      csv.row(noise, digits(block.noise_ml), digits(block.noise_given / std::sqrt(2.0 * n)),
-              digits(block.noise_ml / std::sqrt(2.0 * n)), block.noise_given, digits(block.chi_squared),
-              digits(block.reduced_chi_squared), block.iterations, block.starts, block.agreed,
-              block.distinct_minima, block.at_bound ? 1 : 0);
+      csv.row(noise, digits(block.noise_ml), digits(block.standard_error_of_noise(block.noise_given)),
+              digits(block.standard_error_of_noise(block.noise_ml)), block.noise_given,
+              digits(block.chi_squared), digits(block.reduced_chi_squared), block.iterations, block.starts,
+              block.agreed, block.distinct_minima, block.at_bound ? 1 : 0);
     };
     write(parameter_columns[0], parameter_columns[2], fit.friction_force);
     write(parameter_columns[1], parameter_columns[3], fit.natural_frequency);

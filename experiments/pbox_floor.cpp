@@ -3,10 +3,6 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
-#include <algorithm>
-#include <array>
-#include <iterator>
-
 #include "inputs.hpp"
 #include "replication/exact_runs.hpp"
 #include "statistics/summary.hpp"
@@ -15,21 +11,6 @@
 using namespace experiments;
 
 namespace {
-
-using Areas = std::array<double, friction::parameter_count>;
-
-/// Quantile of each parameter's areas over the studies.
-Areas quantile_of(const std::vector<Areas>& studies, double probability) {
-  Areas quantiles{};
-  for (std::size_t p = 0; p < quantiles.size(); ++p) {
-    std::vector<double> sorted;
-    std::transform(studies.begin(), studies.end(), std::back_inserter(sorted),
-                   [&](const Areas& areas) { return areas[p]; });
-    std::sort(sorted.begin(), sorted.end());
-    quantiles[p] = statistics::sample_quantile(sorted, probability);
-  }
-  return quantiles;
-}
 
 void write_pboxes(OptionalCsv& csv, const replication::Ecdfs& ecdfs, long points) {
   for (std::size_t p = 0; p < ecdfs.size(); ++p) {
@@ -46,11 +27,11 @@ void write_pboxes(OptionalCsv& csv, const replication::Ecdfs& ecdfs, long points
 void write_growth(OptionalCsv& csv, const estimation::ExactPosterior& posterior, std::uint64_t seed) {
   for (const long runs : {10, 50, 200}) {
     for (const long samples : {1000, 4000, 16000}) {
-      std::vector<Areas> areas;
+      std::vector<replication::Areas> areas;
       for (const std::uint32_t study : {0U, 1U, 2U}) {
         areas.push_back(replication::exact_areas(posterior, seed, study, runs, samples));
       }
-      csv.row(runs, samples, quantile_of(areas, 0.5));
+      csv.row(runs, samples, replication::area_quantiles(areas, 0.5));
     }
   }
 }
@@ -92,7 +73,7 @@ int main(int argc, char** argv) {
     auto pbox_csv = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper"});
     columns.front() = "probability";
     auto summary_csv = open_csv(summary_output, columns);
-    std::vector<Areas> areas(static_cast<std::size_t>(studies));
+    std::vector<replication::Areas> areas(static_cast<std::size_t>(studies));
     io::Progress progress("pbox_floor", areas.size(), !report.quiet());
     tmcmc::for_each_block(studies, 1, options.threads, [&](auto, auto begin, auto) {
       areas[static_cast<std::size_t>(begin)] = replication::exact_areas(
@@ -102,8 +83,9 @@ int main(int argc, char** argv) {
     report("P-boxes of {} sets of {} exact draws, {} studies, seed {}, reading {}\n", run_options.runs,
            samples, studies, options.seed, inputs.physics.reading_name);
     report("{:<22} {:>14} {:>14} {:>14}\n", "area", "median", "2.5 %", "97.5 %");
-    const Areas median = quantile_of(areas, 0.5), low = quantile_of(areas, 0.025),
-                high = quantile_of(areas, 0.975);
+    const auto median = replication::area_quantiles(areas, 0.5),
+               low = replication::area_quantiles(areas, 0.025),
+               high = replication::area_quantiles(areas, 0.975);
     for (std::size_t p = 0; p < parameter_columns.size(); ++p) {
       report("{:<22} {:>14.6g} {:>14.6g} {:>14.6g}\n", parameter_columns[p], median[p], low[p], high[p]);
     }

@@ -4,9 +4,7 @@
 //
 // Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
-#include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"
@@ -14,28 +12,6 @@
 #include "replication/noise_priors.hpp"
 
 using namespace experiments;
-
-namespace {
-
-std::vector<pbox::Ecdf> ecdfs_of(const std::vector<replication::Run>& runs, std::size_t parameter) {
-  std::vector<pbox::Ecdf> ecdfs;
-  for (const auto& run : runs) {
-    const auto column = run.result.final.points.col(static_cast<Eigen::Index>(parameter));
-    ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()), tmcmc::as_span(run.result.weights));
-  }
-  return ecdfs;
-}
-
-/// Error of a number that each run gives; without an exact value its bias has no meaning.
-statistics::EstimateError error_of(const std::vector<replication::Run>& runs,
-                                   const std::function<double(const replication::Run&)>& number,
-                                   double exact = 0.0) {
-  std::vector<double> estimates;
-  std::transform(runs.begin(), runs.end(), std::back_inserter(estimates), number);
-  return statistics::error_of(estimates, exact);
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("The box of Table 2 beside log-uniform and half-normal noise levels, against quadrature.",
@@ -88,11 +64,12 @@ int main(int argc, char** argv) {
         progress.advance();
         const auto areas = replication::pbox_areas(runs, options.threads);
         const double truth = exact.log_evidence();
-        const auto evidence = error_of(
+        const auto evidence = replication::error_over_runs(
             runs, [](const auto& run) { return run.result.evidence.log_evidence; }, truth);
-        const double stages =
-            error_of(runs, [](const auto& run) { return static_cast<double>(run.iterations()); }).mean;
-        const double cost = error_of(runs, [](const auto& run) {
+        const double stages = replication::error_over_runs(runs, [](const auto& run) {
+                                return static_cast<double>(run.iterations());
+                              }).mean;
+        const double cost = replication::error_over_runs(runs, [](const auto& run) {
                               return static_cast<double>(run.result.final.evaluations);
                             }).mean;
         report("{:<12} {:<12} {:>13.3f} {:>12.3f} {:>9.3f} {:>7.2f} {:>7.0f} {:>12.5f} {:>12.5f}\n", name,
@@ -100,13 +77,13 @@ int main(int argc, char** argv) {
         for (std::size_t p = 0; p < floors.size(); ++p) {
           const auto j = static_cast<Eigen::Index>(p);
           const auto& marginal = exact.marginal(static_cast<friction::Parameter>(p));
-          const auto mean = error_of(runs, [j](const auto& run) { return run.mean[j]; });
+          const auto mean = replication::error_over_runs(runs, [j](const auto& run) { return run.mean[j]; });
           csv.row(name, arm.name, parameter_columns[p], digits(marginal.mean()),
                   digits(marginal.standard_deviation()), mean.mean, mean.standard_error, areas[j], floors[p],
                   digits(truth), evidence.mean, evidence.standard_error, evidence.root_mean_square, stages,
                   cost);
           if (boxes) {
-            const auto envelope = pbox::envelope(ecdfs_of(runs, p));
+            const auto envelope = pbox::envelope(replication::ecdfs_of(runs, j));
             for (const double x :
                  statistics::evenly_spaced(marginal.quantile(0.0005), marginal.quantile(0.9995), points)) {
               const auto bounds = pbox::evaluate(envelope, x);

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "build_info.hpp"
+#include "command_line/build_info.hpp"
 #include "inputs.hpp"
 #include "io/interrupt.hpp"
 #include "io/journal.hpp"

@@ -2,10 +2,8 @@
 //
 // Data: the runs that sampling_study writes.
 
-#include <map>
-#include <set>
-
 #include "inputs.hpp"
+#include "replication/paper_tables.hpp"
 
 using namespace experiments;
 
@@ -20,38 +18,14 @@ int main(int argc, char** argv) {
             "Runs: CSV with columns sampler, iterations; and run, each once a sampler");
 
   return report.run(argc, argv, [&] {
-    const auto table = io::CsvTable::read(input);
-    const auto samplers = table.text("sampler");
-    const auto iterations = positive_integers(table, "iterations");
-    if (table.has("run")) {
-      require_runs_once(table);
-    }
-    std::vector<std::string> names;
-    std::set<std::string_view> known;
-    std::map<long, std::map<std::string, long>> counts;
-    for (std::size_t row = 0; row < samplers.size(); ++row) {
-      if (known.insert(samplers[row]).second) {
-        names.push_back(samplers[row]);
-      }
-      ++counts[iterations[row]][samplers[row]];
-    }
+    const auto table = replication::count_iterations(io::CsvTable::read(input));
     std::vector<std::string> columns = {"iterations"};
-    columns.insert(columns.end(), names.begin(), names.end());
+    columns.insert(columns.end(), table.samplers.begin(), table.samplers.end());
     auto csv = open_csv(output, columns);
-    report("Runs by number of iterations\n{:<12}", "iterations");
-    for (const auto& name : names) {
-      report(" {:>12}", name);
-    }
-    report("\n");
-    for (auto& [number, by_sampler] : counts) {
-      std::vector<double> cells;
-      report("{:<12}", number);
-      for (const auto& name : names) {
-        cells.push_back(static_cast<double>(by_sampler[name]));
-        report(" {:>12}", by_sampler[name]);
-      }
-      report("\n");
-      csv.row(number, cells);
+    report("Runs by number of iterations\n{:<12} {:>12}\n", "iterations", fmt::join(table.samplers, " "));
+    for (const auto& [iterations, runs] : table.runs) {
+      report("{:<12} {:>12}\n", iterations, fmt::join(runs, " "));
+      csv.row(iterations, runs);
     }
     io::commit_all(csv);
   });

@@ -3,21 +3,21 @@
 /// line.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "checks.hpp"
+#include "command_line/checks.hpp"
+#include "command_line/report.hpp"
 #include "replication/reading.hpp"
 #include "replication/study.hpp"
 #include "replication/synthetic.hpp"
-#include "run.hpp"
 #include "statistics/deviance_test.hpp"
-#include "tmcmc/option_table.hpp"
 
 namespace experiments {
+
+using namespace command_line;
 
 /// --reading, the physics behind it option by option, --driving-force.
 struct PhysicsOptions {
@@ -33,22 +33,6 @@ struct PhysicsOptions {
   /// The reading with the options applied.
   [[nodiscard]] replication::Reading reading() const;
 };
-
-/// move_steps is --move-steps.
-[[nodiscard]] std::string option_of(std::string_view name);
-/// What stands for the value of an option of the sampler in --help.
-[[nodiscard]] std::string type_of(const tmcmc::OptionText& option);
-/// The check of its value.
-[[nodiscard]] CLI::Validator check_of(const tmcmc::OptionText& option);
-
-/// The text that an option of the sampler was given; nothing if it was not.
-using GivenOption = std::function<std::optional<std::string>(std::string_view name)>;
-/// How a message names an option of the sampler, such as --move-steps.
-using OptionPlace = std::function<std::string(std::string_view name)>;
-
-/// Sets the options of the sampler that were given, in the order of tmcmc::option_table().
-/// \throws errors::InvalidValue naming the place, for values that are incompatible and for an option that would change nothing.
-void set_sampler_options(tmcmc::Options& options, const GivenOption& given, const OptionPlace& place);
 
 /// The sampler behind --reading, option by option; or the recommended one, with the same options.
 struct SamplerOptions {

@@ -194,6 +194,10 @@ const char* describe(FittedNoise noise) {
   return "";
 }
 
+double BlockFit::standard_error_of_noise(double sigma) const {
+  return sigma / std::sqrt(2.0 * static_cast<double>(residuals.size()));
+}
+
 void LeastSquaresOptions::validate() const {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   require(positive(phase_noise_deg), "phase_noise_deg", phase_noise_deg, "a positive finite number");

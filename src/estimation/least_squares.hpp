@@ -57,6 +57,10 @@ struct BlockFit {
   /// NaN.
   double log_likelihood = 0.0;
 
+  /// Standard error of a noise level sigma that is estimated from the residuals: the Fisher information of a
+  /// normal standard deviation is 2 n / sigma^2.
+  [[nodiscard]] double standard_error_of_noise(double sigma) const;
+
   int starts = 0;           ///< starts that were run
   int agreed = 0;           ///< starts that converged to the estimate
   int failed = 0;           ///< starts that did not converge

@@ -39,6 +39,23 @@ std::string blank_if_nan(double value, const char* format) {
   return std::isnan(value) ? "" : fmt::format(fmt::runtime(format), value);
 }
 
+/// The position of the cell among replicated studies, as far as it is known.
+std::string place_of(const ComparedCell& cell) {
+  std::string text;
+  if (!std::isnan(cell.median)) {
+    text +=
+        fmt::format("studies {:.4g} ({:.4g} to {:.4g})", cell.median, cell.interval.low, cell.interval.high);
+  }
+  if (!std::isnan(cell.printed_percentile)) {
+    text += fmt::format(", percentiles {:.1f} and {:.1f}", cell.printed_percentile, cell.our_percentile);
+  }
+  if (!std::isnan(cell.p.value)) {
+    text +=
+        fmt::format("{}p = {:.2g} +- {:.1g}", text.empty() ? "" : ", ", cell.p.value, cell.p.standard_error);
+  }
+  return text + (cell.verdict.empty() ? "" : ": " + cell.verdict);
+}
+
 std::string row_of(const std::string& table, const std::string& what, const std::string& printed,
                    const std::string& ours, const ComparedCell& c) {
   const std::string spread = std::isnan(c.median) ? ""
@@ -125,6 +142,21 @@ void compare(std::vector<ComparedCell>& cells, const std::string& name, const st
   }
 }
 
+void compare_bounds(std::vector<ComparedCell>& cells, const tmcmc::Prior& printed, const tmcmc::Prior& ours) {
+  for (std::size_t j = 0; j < parameter_columns.size(); ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    const auto add = [&](const char* bound, double printed_bound, double our_bound) {
+      cells.push_back({.table = "Table 2",
+                       .row = parameter_columns[j],
+                       .column = bound,
+                       .printed = printed_bound,
+                       .ours = our_bound});
+    };
+    add("lower", printed.lower()[row], ours.lower()[row]);
+    add("upper", printed.upper()[row], ours.upper()[row]);
+  }
+}
+
 double difference(const ComparedCell& cell) {
   return cell.column == "phase_deg" ? friction::angle_residual_deg(cell.ours, cell.printed)
                                     : cell.ours - cell.printed;
@@ -164,6 +196,23 @@ void place_among_studies(std::vector<ComparedCell>& cells, const std::vector<Stu
     add(counts[i].sampler, joint.columns[i], false);
   }
   add("all", joint.all, true);
+}
+
+std::string comparison_text(const std::vector<ComparedCell>& cells) {
+  std::string text;
+  std::string table;
+  for (const ComparedCell& cell : cells) {
+    if (cell.table != table) {
+      table = cell.table;
+      text += fmt::format("\n{}\n  {:<24} {:<22} {:>12} {:>12} {:>12}  {}\n", table, "row", "column",
+                          "printed", "ours", "difference", "among replicated studies");
+    }
+    const std::string place = place_of(cell);
+    text += fmt::format("  {:<24} {:<22} {:>12} {:>12} {:>12}{}{}\n", cell.row, cell.column,
+                        blank_if_nan(cell.printed, "{:.5g}"), blank_if_nan(cell.ours, "{:.5g}"),
+                        blank_if_nan(difference(cell), "{:+.3g}"), place.empty() ? "" : "  ", place);
+  }
+  return text;
 }
 
 std::string comparison_markdown(const std::vector<ComparedCell>& cells) {

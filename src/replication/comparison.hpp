@@ -8,6 +8,7 @@
 
 #include "io/csv.hpp"
 #include "replication/published.hpp"
+#include "tmcmc/prior.hpp"
 
 namespace replication {
 
@@ -37,6 +38,9 @@ void compare(std::vector<ComparedCell>& cells, const std::string& name, const st
              const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
              double missing);
 
+/// Appends the cells of "Table 2", the bounds of each parameter.
+void compare_bounds(std::vector<ComparedCell>& cells, const tmcmc::Prior& printed, const tmcmc::Prior& ours);
+
 /// Our number minus the printed one; for a phase angle, deg, the shortest rotation.
 [[nodiscard]] double difference(const ComparedCell& cell);
 
@@ -48,6 +52,9 @@ void compare(std::vector<ComparedCell>& cells, const std::string& name, const st
 void place_among_studies(std::vector<ComparedCell>& cells, const std::vector<StudySummary>& studies,
                          const std::vector<PrintedArea>& areas, const std::vector<PrintedCounts>& counts,
                          Null null, const std::vector<std::string>& parameters);
+
+/// The cells as text: each table with one row per cell.
+[[nodiscard]] std::string comparison_text(const std::vector<ComparedCell>& cells);
 
 /// Tables 3 and 4 and the joint tests as a Markdown table: a row for each area, one for Table 4.
 [[nodiscard]] std::string comparison_markdown(const std::vector<ComparedCell>& cells);

@@ -1,7 +1,10 @@
 #include "replication/exact_runs.hpp"
 
 #include <algorithm>
+#include <iterator>
 
+#include "errors/invalid_value.hpp"
+#include "statistics/summary.hpp"
 #include "tmcmc/random.hpp"
 #include "tmcmc/random_stream.hpp"
 
@@ -31,14 +34,28 @@ Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed
   return ecdfs;
 }
 
-std::array<double, friction::parameter_count> exact_areas(const estimation::ExactPosterior& posterior,
-                                                          std::uint64_t seed, std::uint32_t study, long runs,
-                                                          long samples) {
+Areas exact_areas(const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study,
+                  long runs, long samples) {
   const Ecdfs ecdfs = exact_runs(posterior, seed, study, runs, samples);
-  std::array<double, friction::parameter_count> areas{};
+  Areas areas{};
   std::transform(ecdfs.begin(), ecdfs.end(), areas.begin(),
                  [](const auto& of_parameter) { return pbox::area_metric(of_parameter); });
   return areas;
+}
+
+Areas area_quantiles(const std::vector<Areas>& studies, double probability) {
+  if (studies.empty()) {
+    throw errors::InvalidValue("studies", studies.size(), "at least one");
+  }
+  Areas quantiles{};
+  for (std::size_t p = 0; p < quantiles.size(); ++p) {
+    std::vector<double> sorted;
+    std::transform(studies.begin(), studies.end(), std::back_inserter(sorted),
+                   [p](const Areas& areas) { return areas[p]; });
+    std::sort(sorted.begin(), sorted.end());
+    quantiles[p] = statistics::sample_quantile(sorted, probability);
+  }
+  return quantiles;
 }
 
 double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed, std::uint32_t study,

@@ -20,10 +20,17 @@ using Ecdfs = std::array<std::vector<pbox::Ecdf>, friction::parameter_count>;
 [[nodiscard]] Ecdfs exact_runs(const estimation::ExactPosterior& posterior, std::uint64_t seed,
                                std::uint32_t study, long runs, long samples);
 
-/// Areas (Eq. 25) of the p-boxes of exact_runs, one entry per parameter.
-[[nodiscard]] std::array<double, friction::parameter_count> exact_areas(
-    const estimation::ExactPosterior& posterior, std::uint64_t seed, std::uint32_t study, long runs,
-    long samples);
+/// An area for each parameter, in its unit.
+using Areas = std::array<double, friction::parameter_count>;
+
+/// Areas (Eq. 25) of the p-boxes of exact_runs.
+[[nodiscard]] Areas exact_areas(const estimation::ExactPosterior& posterior, std::uint64_t seed,
+                                std::uint32_t study, long runs, long samples);
+
+/// Quantile of the areas of each parameter over the studies.
+/// \param probability  in [0, 1]
+/// \throws errors::InvalidValue if there is no study.
+[[nodiscard]] Areas area_quantiles(const std::vector<Areas>& studies, double probability);
 
 /// Area (Eq. 25) of the p-box of `runs` sets of independent exact draws of one parameter.
 [[nodiscard]] double exact_area(const estimation::TabulatedDensity& exact, std::uint64_t seed,

@@ -1,16 +1,21 @@
 #include "replication/forensics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
 
 #include "errors/invalid_value.hpp"
+#include "io/csv.hpp"
 #include "portable_math/elementary.hpp"
 
 namespace replication {
 
 namespace {
 
+constexpr int fewest_steps = 2;
+constexpr int most_steps = 5;
 constexpr std::uint32_t first_arm = 16;  // of the streams; those of the paper's samplers are 0 and 1
 
 double both(const LogDensity& density) {
@@ -85,10 +90,10 @@ std::vector<Setting> forensic_settings(tmcmc::Index samples) {
     return r;
   };
   settings.push_back({"3 steps redraw", base, {}});
-  for (const int steps : {2, 4, 5}) {
+  for (const int steps : {fewest_steps, 4, most_steps}) {
     settings.push_back({std::to_string(steps) + " steps redraw", changed(steps, Outside::redraw), {}});
   }
-  for (const int steps : {2, 3, 4, 5}) {
+  for (int steps = fewest_steps; steps <= most_steps; ++steps) {
     settings.push_back({std::to_string(steps) + " steps reject", changed(steps, Outside::reject), {}});
   }
   Reading population = base;
@@ -181,6 +186,25 @@ Forensics compare_settings(const std::vector<std::vector<StudySummary>>& studies
   }
   result.search_p = predictive_p_of_pair(losses, -result.gain + 1e-9);
   return result;
+}
+
+std::vector<SearchStatistic> search_statistics(const Forensics& found, const std::vector<std::string>& names,
+                                               long studies) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const PairFit& best =
+      *std::max_element(found.pairs.begin(), found.pairs.end(),
+                        [](const auto& a, const auto& b) { return a.log_density < b.log_density; });
+  return {{"studies of each setting", std::to_string(studies), none},
+          {"pairs", io::format_number(found.number_of_pairs), none},
+          {"log of the pairs", fmt::format("{:.6g}", portable_math::log(found.number_of_pairs)), none},
+          {"fewest steps", std::to_string(fewest_steps), none},
+          {"most steps", std::to_string(most_steps), none},
+          {"best first", names.at(best.first), none},
+          {"best second", names.at(best.second), none},
+          {"gain", io::format_number(found.gain), none},
+          {"p of the best pair", io::format_number(best.p.value), best.p.standard_error},
+          {"weight of the best pair", io::format_number(best.weight), none},
+          {"p of the search", io::format_number(found.search_p.value), found.search_p.standard_error}};
 }
 
 }  // namespace replication

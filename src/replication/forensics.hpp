@@ -69,6 +69,20 @@ struct Forensics {
   PValue search_p;
 };
 
+/// A number of the search or the name of a setting, as a row of a table.
+struct SearchStatistic {
+  std::string quantity;   ///< what the value is
+  std::string value;      ///< number or name
+  double standard_error;  ///< NaN unless the value is estimated by simulation
+};
+
+/// The numbers that the report quotes, with the best pair.
+/// \param names  names of the settings
+/// \param studies  number of studies of each setting other than the first
+[[nodiscard]] std::vector<SearchStatistic> search_statistics(const Forensics& found,
+                                                             const std::vector<std::string>& names,
+                                                             long studies);
+
 /// \param studies  studies of each setting, at least 3; the first setting is the one sampler with which the
 ///        search is compared
 /// \param names  names of the settings

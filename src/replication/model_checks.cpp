@@ -70,4 +70,18 @@ std::vector<DiscretisationError> discretisation_errors(double lowest, double hig
   return errors;
 }
 
+std::vector<CurvePoint> phase_curves(double lowest, double highest, long points, double friction_force_n,
+                                     double fitted_force_n, const friction::Physics& physics) {
+  std::vector<CurvePoint> curve;
+  for (const double r : statistics::evenly_spaced(lowest, highest, points)) {
+    if (!friction::is_singular_ratio(r)) {
+      const auto c = friction::response_constants(r, physics);
+      curve.push_back({r, friction::phase_deg(c, friction_force_n / physics.driving_force_n),
+                       friction::phase_deg(c, c.limit_force_ratio), c.limit_force_ratio,
+                       friction::phase_deg(c, fitted_force_n / physics.driving_force_n)});
+    }
+  }
+  return curve;
+}
+
 }  // namespace replication

@@ -63,4 +63,19 @@ struct DiscretisationError {
                                                                      long points, double friction_force_n,
                                                                      double driving_force_n);
 
+/// A point of the curves of Figure 2. Phases are in deg, NaN where the motion is not continuous.
+struct CurvePoint {
+  double frequency_ratio;     ///< driving over natural frequency
+  double phase_deg;           ///< with the friction force
+  double boundary_phase_deg;  ///< on Den Hartog's boundary, where the force ratio is at its limit
+  double limit_force_ratio;   ///< limit of continuous motion (Eq. 18)
+  double phase_fitted_deg;    ///< with the fitted friction force
+};
+
+/// The curves at frequency ratios equidistant from `lowest` to `highest`, without the singular ones.
+/// \param points  2 or more
+[[nodiscard]] std::vector<CurvePoint> phase_curves(double lowest, double highest, long points,
+                                                   double friction_force_n, double fitted_force_n,
+                                                   const friction::Physics& physics);
+
 }  // namespace replication

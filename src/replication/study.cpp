@@ -1,10 +1,11 @@
 #include "replication/study.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "errors/invalid_value.hpp"
-#include "pbox/pbox.hpp"
 #include "tmcmc/diagnostics.hpp"
 #include "tmcmc/parallel.hpp"
 
@@ -70,6 +71,16 @@ std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uin
   return runs;
 }
 
+std::vector<pbox::Ecdf> ecdfs_of(const std::vector<Run>& runs, tmcmc::Index parameter) {
+  std::vector<pbox::Ecdf> ecdfs;
+  ecdfs.reserve(runs.size());
+  for (const Run& run : runs) {
+    const auto column = run.result.final.points.col(parameter);
+    ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()), tmcmc::as_span(run.result.weights));
+  }
+  return ecdfs;
+}
+
 Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads) {
   if (runs.empty()) {
     throw errors::InvalidValue("runs", "", "at least one");
@@ -77,16 +88,16 @@ Eigen::VectorXd pbox_areas(const std::vector<Run>& runs, int threads) {
   const tmcmc::Index d = runs.front().result.final.points.cols();
   Eigen::VectorXd areas(d);
   tmcmc::for_each_block(d, 1, threads, [&](tmcmc::Index j, tmcmc::Index, tmcmc::Index) {
-    std::vector<pbox::Ecdf> ecdfs;
-    ecdfs.reserve(runs.size());
-    for (const Run& run : runs) {
-      const auto column = run.result.final.points.col(j);
-      ecdfs.emplace_back(std::vector<double>(column.begin(), column.end()),
-                         tmcmc::as_span(run.result.weights));
-    }
-    areas[j] = pbox::area_metric(ecdfs);
+    areas[j] = pbox::area_metric(ecdfs_of(runs, j));
   });
   return areas;
+}
+
+statistics::EstimateError error_over_runs(const std::vector<Run>& runs,
+                                          const std::function<double(const Run&)>& number, double exact) {
+  std::vector<double> estimates;
+  std::transform(runs.begin(), runs.end(), std::back_inserter(estimates), number);
+  return statistics::error_of(estimates, exact);
 }
 
 std::map<tmcmc::Index, tmcmc::Index> iteration_counts(const std::vector<Run>& runs) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "pbox/pbox.hpp"
 #include "replication/reading.hpp"
 #include "statistics/summary.hpp"
 
@@ -48,6 +49,16 @@ using RunObserver = std::function<void()>;
 /// \throws tmcmc::SamplingError naming sampler and run if a run fails or ends before beta = 1.
 [[nodiscard]] std::vector<Run> run_arm(const tmcmc::Problem& problem, const Arm& arm, std::uint32_t arm_index,
                                        const StudyOptions& options, const RunObserver& observer = {});
+
+/// Empirical distribution functions (weighted if the samples are) of a parameter, one per run.
+[[nodiscard]] std::vector<pbox::Ecdf> ecdfs_of(const std::vector<Run>& runs, tmcmc::Index parameter);
+
+/// Error, against an exact value, of a number that each run gives.
+/// \param exact  without an exact value (0) the bias has no meaning
+/// \throws errors::InvalidValue if there is no run.
+[[nodiscard]] statistics::EstimateError error_over_runs(const std::vector<Run>& runs,
+                                                        const std::function<double(const Run&)>& number,
+                                                        double exact = 0.0);
 
 /// Area (Eq. 25) of the p-box of the runs' ECDFs, one entry per parameter.
 /// \param threads  threads over the parameters; the areas do not depend on the number

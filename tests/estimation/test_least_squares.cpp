@@ -155,6 +155,7 @@ TEST_CASE("misfits, residuals, chi squared, standard errors and log-likelihood f
     CHECK_THAT(block->chi_squared,
                WithinRel(block->sum_of_squares / std::pow(block->noise_given, 2), accuracy));
     CHECK_THAT(block->reduced_chi_squared, WithinRel(block->chi_squared / 9.0, accuracy));
+    CHECK_THAT(block->standard_error_of_noise(2.0), WithinRel(2.0 / std::sqrt(20.0), accuracy));
   }
   Eigen::MatrixXd point(1, 4);
   point << force.estimate, frequency.estimate, force.noise_ml, frequency.noise_ml;

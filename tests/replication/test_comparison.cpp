@@ -70,6 +70,27 @@ TEST_CASE("cells have their places among the studies, and all together their tes
   CHECK_THAT(
       text, Contains("| Table 3 | A, force | 0.15 |") && Contains("| Table 4 | 10 iterations | A 42 |") &&
                 Contains("| jointly | A: areas and iterations |") && Contains("| **all printed numbers** |"));
+  const auto listed = comparison_text(cells);
+  CHECK_THAT(listed, Contains("\nTable 3\n") && Contains("studies 0.1495 (") && Contains(": compatible\n") &&
+                         Contains("\njoint\n"));
+  CHECK(listed.find("nan") == std::string::npos);
+}
+
+TEST_CASE("the bounds of Table 2 are compared one by one", "[comparison]") {
+  const auto prior = [](double lower) {
+    return tmcmc::Prior({{"a", "", tmcmc::Marginal::uniform(0.0, 1.0)},
+                         {"b", "", tmcmc::Marginal::uniform(lower, 2.0)},
+                         {"c", "", tmcmc::Marginal::uniform(0.0, 3.0)},
+                         {"d", "", tmcmc::Marginal::uniform(0.0, 4.0)}});
+  };
+  std::vector<ComparedCell> cells;
+  compare_bounds(cells, prior(0.5), prior(0.75));
+  REQUIRE(cells.size() == 8);
+  CHECK(cells[2].row == "natural_frequency_hz");
+  CHECK(cells[2].column == "lower");
+  CHECK(difference(cells[2]) == 0.25);
+  CHECK(cells[7].ours == 4.0);
+  CHECK(cells[7].printed == 4.0);
 }
 
 TEST_CASE("shares of studies by their runs of so many iterations add up to 1", "[comparison]") {

@@ -66,6 +66,18 @@ TEST_CASE("two settings that made the columns are found, and the search is signi
   double sum = 0.0;
   for (const auto& p : found.pairs) sum += p.weight;
   CHECK_THAT(sum, WithinAbs(1.0, 1e-12));
+  const auto statistics = search_statistics(found, names, 40);
+  const auto value = [&](const std::string& quantity) {
+    return std::find_if(statistics.begin(), statistics.end(),
+                        [&](const auto& s) { return s.quantity == quantity; })
+        ->value;
+  };
+  CHECK(value("studies of each setting") == "40");
+  CHECK(value("best first") == "two");
+  CHECK(value("best second") == "three");
+  CHECK(std::stod(value("gain")) == found.gain);
+  CHECK(std::stod(value("p of the best pair")) == best->p.value);
+  CHECK(std::stod(value("p of the search")) == found.search_p.value);
 }
 
 TEST_CASE("columns of one sampler give a search that finds nothing", "[forensics]") {

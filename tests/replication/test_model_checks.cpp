@@ -37,6 +37,18 @@ TEST_CASE("below the limit integration in time finds the closed form, beyond it 
   }
 }
 
+TEST_CASE("curves of the phase angle are those of the model, without the singular ratio", "[model_checks]") {
+  const friction::Physics physics;
+  const auto curve = replication::phase_curves(0.5, 1.5, 3, 1.0, 1.25, physics);
+  REQUIRE(curve.size() == 2);  // r = 1 has no response
+  const auto c = friction::response_constants(1.5, physics);
+  CHECK(curve[1].frequency_ratio == 1.5);
+  CHECK(curve[1].limit_force_ratio == c.limit_force_ratio);
+  CHECK(curve[1].phase_deg == friction::phase_deg(c, 0.4));
+  CHECK(curve[1].phase_fitted_deg == friction::phase_deg(c, 0.5));
+  CHECK(curve[1].boundary_phase_deg == friction::phase_deg(c, c.limit_force_ratio));
+}
+
 TEST_CASE("errors of the published discretisation are those of the two models", "[model_checks]") {
   const auto errors = discretisation_errors(0.5, 1.5, 3, 1.0, 2.5);
   REQUIRE(errors.size() == 2);  // r = 1 has no response

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "errors/invalid_value.hpp"
 #include "friction_study.hpp"
 #include "io/csv_fixture.hpp"
 #include "replication/claim_tables.hpp"
@@ -89,6 +90,22 @@ TEST_CASE("exact runs are draws of the posterior, others in each run and study",
   CHECK(runs[0][0].sorted()[0] != runs[0][1].sorted()[0]);
   CHECK(exact_runs(posterior, 1, 1, 1, 10)[0][0].sorted()[0] !=
         exact_runs(posterior, 1, 0, 1, 10)[0][0].sorted()[0]);
+}
+
+TEST_CASE("areas of exact runs are those of their distribution functions, with quantiles over studies",
+          "[points]") {
+  const estimation::ExactPosterior posterior(friction::Likelihood(test_data::table1(), {}),
+                                             {{{0.01, 10.0}, {0.01, 10.0}, {0.001, 10.0}, {0.001, 1.0}}});
+  const auto areas = exact_areas(posterior, 1, 0, 3, 50);
+  const auto runs = exact_runs(posterior, 1, 0, 3, 50);
+  for (std::size_t p = 0; p < areas.size(); ++p) {
+    CHECK(areas[p] == pbox::area_metric(runs[p]));
+  }
+  const std::vector<replication::Areas> studies = {
+      {3.0, 30.0, 0.0, 1.0}, {1.0, 20.0, 0.0, 1.0}, {2.0, 10.0, 0.0, 3.0}};
+  CHECK(area_quantiles(studies, 0.5) == replication::Areas{2.0, 20.0, 0.0, 1.0});
+  CHECK(area_quantiles(studies, 0.75) == replication::Areas{2.5, 25.0, 0.0, 2.0});
+  CHECK_THROWS_AS(area_quantiles({}, 0.5), errors::InvalidValue);
 }
 
 TEST_CASE("priors of the noise levels, by their densities", "[points]") {

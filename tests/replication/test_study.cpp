@@ -136,6 +136,10 @@ TEST_CASE("p-box areas of given runs, by hand", "[study]") {
   CHECK_THAT(areas[0], WithinRel(7.0 / 3.0, rounding));
   CHECK_THAT(areas[1], WithinRel(2.0, rounding));
   CHECK(replication::pbox_areas({runs[0]}).isZero(0.0));
+  const auto error = replication::error_over_runs(
+      runs, [](const auto& run) { return run.result.final.points(0, 0); }, 3.0);  // 3, 2 and 5
+  CHECK_THAT(error.bias, WithinRel(1.0 / 3.0, rounding));
+  CHECK_THAT(error.root_mean_square, WithinRel(std::sqrt(5.0 / 3.0), rounding));
 }
 
 TEST_CASE("iteration counts are the column of Table 4", "[study]") {

@@ -1,4 +1,4 @@
-#include "run.hpp"
+#include "command_line/report.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -13,10 +13,10 @@
 #include <new>
 #include <string_view>
 
-#include "build_info.hpp"
+#include "command_line/build_info.hpp"
 #include "io/interrupt.hpp"
 
-namespace experiments {
+namespace command_line {
 
 namespace {
 
@@ -226,4 +226,4 @@ std::string or_undefined(fmt::format_string<const double&> format, const double 
   return std::isnan(value) ? "undefined" : fmt::format(format, value);
 }
 
-}  // namespace experiments
+}  // namespace command_line

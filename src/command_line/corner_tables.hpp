@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "run.hpp"
+#include "command_line/report.hpp"
 
-namespace experiments {
+namespace command_line {
 
 /// Samples by parameter.
 struct CornerSamples {
@@ -32,4 +32,4 @@ struct CornerTables {
   void write(const CornerSamples& samples, long bins, const Report* report = nullptr);
 };
 
-}  // namespace experiments
+}  // namespace command_line

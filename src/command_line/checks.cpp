@@ -1,4 +1,4 @@
-#include "checks.hpp"
+#include "command_line/checks.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "io/csv.hpp"
 
-namespace experiments {
+namespace command_line {
 
 namespace {
 
@@ -85,4 +85,4 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
           : fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back()));
 }
 
-}  // namespace experiments
+}  // namespace command_line

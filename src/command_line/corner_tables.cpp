@@ -1,9 +1,9 @@
-#include "corner_tables.hpp"
+#include "command_line/corner_tables.hpp"
 
 #include "statistics/corner.hpp"
 #include "statistics/summary.hpp"
 
-namespace experiments {
+namespace command_line {
 
 CornerTables::CornerTables(const std::string& joint_path, const std::string& marginals_path,
                            const std::string& summary_path)
@@ -54,4 +54,4 @@ void CornerTables::write(const CornerSamples& samples, long bins, const Report* 
   }
 }
 
-}  // namespace experiments
+}  // namespace command_line

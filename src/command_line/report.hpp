@@ -18,7 +18,7 @@
 #include "io/progress.hpp"
 #include "tmcmc/sampler.hpp"
 
-namespace experiments {
+namespace command_line {
 
 /// The report of an executable, and the options that all have: --version,
 /// --quiet, --show-options.
@@ -101,4 +101,4 @@ struct OptionalCsv : std::optional<io::CsvWriter> {
 /// A number of a report in the format given; "undefined" for NaN.
 [[nodiscard]] std::string or_undefined(fmt::format_string<const double&> format, double value);
 
-}  // namespace experiments
+}  // namespace command_line

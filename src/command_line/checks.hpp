@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace experiments {
+namespace command_line {
 
 /// Words that `normalised` takes; `expected` completes "expected ...".
 /// \param normalised  the word as CLI11 parses it, which would take a leading 0 for octal and does
@@ -39,4 +39,4 @@ CLI::Option* add_choice(CLI::App& app, const std::string& option, Text& value,
       ->transform(one_of(names));
 }
 
-}  // namespace experiments
+}  // namespace command_line
