@@ -1,7 +1,7 @@
 // Part 5: the reader's own measurements.
 import { Chart } from "./charts";
 import { digits, element, plain } from "./dom";
-import type { Page, Shown } from "./main";
+import type { Page, Shown } from "./part";
 
 declare const PUBLISHED: Record<string, string>;
 

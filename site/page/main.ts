@@ -2,26 +2,12 @@
 import { element } from "./dom";
 import { Engine } from "./engine";
 import { dataPart } from "./data";
+import type { Page, Shown } from "./part";
 import { rigPart } from "./rig";
 import { runPart } from "./run";
 import { parts, read, write, type Part, type State } from "./state";
 import { studyParts } from "./study";
 import { verdictsPart } from "./verdicts";
-
-/** What a part gets: the state, and how it changes it. */
-export interface Page {
-  state: State;
-  engine: Engine;
-  /** Changes settings. A new entry of the history unless `replace`. */
-  change(settings: Partial<State>, replace?: boolean): void;
-  address(settings: Partial<State>): string;
-}
-
-/** A part of the page; show() is called when it comes into view and when a setting has changed. */
-export interface Shown {
-  show(state: State): void;
-  hide?(): void;
-}
 
 const titles: Record<Part, string> = {
   study: "Your study", knobs: "Turn the knobs", run: "One run", rig: "The rig", data: "Your own data", verdicts: "Verdicts",

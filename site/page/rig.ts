@@ -2,7 +2,7 @@
 import type uPlot from "uplot";
 import { Chart, colour } from "./charts";
 import { element, plain } from "./dom";
-import type { Page, Shown } from "./main";
+import type { Page, Shown } from "./part";
 import type { Observations, SteadyMotion } from "./protocol";
 import type { State } from "./state";
 

@@ -2,7 +2,7 @@
 import type uPlot from "uplot";
 import { Chart, colour, mark } from "./charts";
 import { digits, element, plain } from "./dom";
-import type { Page, Shown } from "./main";
+import type { Page, Shown } from "./part";
 import type { Stage } from "./protocol";
 import { wordsOf, type State } from "./state";
 

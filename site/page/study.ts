@@ -2,7 +2,7 @@
 import type uPlot from "uplot";
 import { Chart, colour, mark, write, type Line } from "./charts";
 import { deviation, digits, download, element, escape, mean, plain, rowsOf } from "./dom";
-import type { Page, Shown } from "./main";
+import type { Page, Shown } from "./part";
 import type { ExactPosterior, StudyProgress } from "./protocol";
 import { covOf, defaults, wordsOf, type State } from "./state";
 

@@ -1,6 +1,6 @@
 // Part 6: the verdicts, each with the view that shows it.
 import { element, escape, rowsOf } from "./dom";
-import type { Page, Shown } from "./main";
+import type { Page, Shown } from "./part";
 import type { State } from "./state";
 
 declare const VERDICTS: string;
