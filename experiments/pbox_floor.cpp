@@ -73,6 +73,9 @@ int main(int argc, char** argv) {
     auto pbox_csv = open_csv(pbox_output, {"sampler", "parameter", "x", "lower", "upper"});
     columns.front() = "probability";
     auto summary_csv = open_csv(summary_output, columns);
+    columns.erase(columns.begin());
+    columns.insert(columns.begin(), {"runs", "samples"});
+    auto growth_csv = open_csv(growth_output, columns);
     std::vector<replication::Areas> areas(static_cast<std::size_t>(studies));
     io::Progress progress("pbox_floor", areas.size(), !report.quiet());
     tmcmc::for_each_block(studies, 1, options.threads, [&](auto, auto begin, auto) {
@@ -99,9 +102,6 @@ int main(int argc, char** argv) {
       write_pboxes(pbox_csv, replication::exact_runs(posterior, options.seed, 0, run_options.runs, samples),
                    points);
     }
-    std::vector<std::string> of_growth = {"runs", "samples"};
-    of_growth.insert(of_growth.end(), parameter_columns.begin(), parameter_columns.end());
-    auto growth_csv = open_csv(growth_output, of_growth);
     if (growth_csv) {
       write_growth(growth_csv, posterior, options.seed);
     }

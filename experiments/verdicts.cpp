@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
     auto contrasts_csv =
         open_csv(contrasts_output, {"quantity", "statistic", "printed", "null_low", "null_high", "p",
                                     "p_standard_error", "ratio", "ratio_low", "ratio_high", "margin"});
+    auto statistics_csv = open_csv(statistics_output, {"quantity", "value", "standard_error"});
     std::optional<io::OutputFile> markdown_file;
     if (!markdown_output.empty()) {
       markdown_file.emplace(markdown_output);
@@ -117,7 +118,6 @@ int main(int argc, char** argv) {
       write_contrast(*contrasts_csv, "natural_frequency_hz", "ratio of areas", contrasts.natural_frequency);
       write_contrast(*contrasts_csv, "iterations", "two-sample deviance", contrasts.iterations);
     }
-    auto statistics_csv = open_csv(statistics_output, {"quantity", "value", "standard_error"});
     for (const auto& s :
          replication::claim_statistics(evidence, joint, exact.mean(), exact.standard_deviation())) {
       statistics_csv.row(s.quantity, digits(s.value, 8), digits(s.standard_error, 4));
