@@ -1,6 +1,6 @@
-// Speed of the parts, of a run and of a study in the published setting (Table 1, N = 1000, three steps a
-// stage), with a straightforward implementation beside them. `make bench` writes a table and
-// build/bench/benchmarks.json.
+// Speed of the parts, of a run and of a study in the published setting (Table 1, N = 1000, three
+// steps a stage), with a straightforward implementation beside them. `make bench` writes a table
+// and build/bench/benchmarks.json.
 
 #include <benchmark/benchmark.h>
 
@@ -48,7 +48,8 @@ void per_item(benchmark::State& state, double items) {
       benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// The roof: multiplications and additions alone, in registers, as many independent ones as hide their latency.
+/// The roof: multiplications and additions alone, in registers, as many independent ones as hide
+/// their latency.
 PORTABLE_MATH_MULTIVERSION
 void multiply_and_add(double* x, int steps) {
   constexpr int lanes = 48;
@@ -201,7 +202,8 @@ void one_run(benchmark::State& state) {
 }
 BENCHMARK(one_run)->Unit(benchmark::kMillisecond);
 
-/// The same run under other priors than the box, by evaluation: independent log-normal ones, four with other densities, a copula.
+/// The same run under other priors than the box, by evaluation: independent log-normal ones, four
+/// with other densities, a copula.
 void one_run_with_prior(benchmark::State& state) {
   using tmcmc::Marginal;
   Setting s;

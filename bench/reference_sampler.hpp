@@ -1,7 +1,7 @@
 /// \file
-/// What the sampler is measured against: a straightforward loop for the published setting. One point at a
-/// time, constants of each frequency ratio cached, the C library's functions, mt19937_64 and
-/// std::normal_distribution.
+/// What the sampler is measured against: a straightforward loop for the published setting. One
+/// point at a time, constants of each frequency ratio cached, the C library's functions, mt19937_64
+/// and std::normal_distribution.
 #pragma once
 
 #include <algorithm>

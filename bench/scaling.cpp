@@ -1,7 +1,8 @@
-// How time and memory grow: one run over the number of samples N, over threads and over the number of observations, and
-// the paper's study (50 runs of each sampler) over threads.
+// How time and memory grow: one run over the number of samples N, over threads and over the number
+// of observations, and the paper's study (50 runs of each sampler) over threads.
 //
-// Data: synthetic, from Eqs. 22 and 23 with the stated parameters; prior of Table 2 (Lye and Marino, ESREL 2023).
+// Data: synthetic, from Eqs. 22 and 23 with the stated parameters; prior of Table 2 (Lye and
+// Marino, ESREL 2023).
 
 #include <algorithm>
 #include <cmath>

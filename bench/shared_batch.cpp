@@ -1,5 +1,5 @@
-// How much faster a batch of a slow model is on several ranks: rows that sleep, evaluated in one call of the log-likelihood
-// by one rank and by all. `make bench-mpi` starts it with 1 and 2 ranks.
+// How much faster a batch of a slow model is on several ranks: rows that sleep, evaluated in one
+// call of the log-likelihood by one rank and by all. `make bench-mpi` starts it with 1 and 2 ranks.
 //
 //     mpirun -np RANKS shared_batch [ROWS [MILLISECONDS]]
 

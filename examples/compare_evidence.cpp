@@ -1,5 +1,6 @@
-// Compares models of the same data by their evidence: log-evidences with their errors, Bayes factors against the best model, and
-// posterior probabilities of the models (Kass and Raftery 1995), from the files that own_model --netcdf writes.
+// Compares models of the same data by their evidence: log-evidences with their errors, Bayes
+// factors against the best model, and posterior probabilities of the models (Kass and Raftery
+// 1995), from the files that own_model --netcdf writes.
 
 #include "command_line/report.hpp"
 #include "storage/compare.hpp"

@@ -1,5 +1,6 @@
-// A hierarchical model: eight groups whose effects have a normal distribution of unknown centre, and of known spread, beside its
-// closed form (eight_groups.hpp). The hierarchy is written as a prior of one's own: a log-density, a draw, names and units.
+// A hierarchical model: eight groups whose effects have a normal distribution of unknown centre,
+// and of known spread, beside its closed form (eight_groups.hpp). The hierarchy is written as a
+// prior of one's own: a log-density, a draw, names and units.
 
 #include "eight_groups.hpp"
 

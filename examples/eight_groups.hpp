@@ -1,11 +1,11 @@
 /// \file
-/// A hierarchical model as a prior of one's own: eight groups (the coaching experiments of Rubin 1981), each with an effect
-/// theta_j of its own and a measurement y_j of it,
+/// A hierarchical model as a prior of one's own: eight groups (the coaching experiments of Rubin
+/// 1981), each with an effect theta_j of its own and a measurement y_j of it,
 ///
 ///     y_j ~ N(theta_j, s_j^2),   theta_j ~ N(mu, tau^2),   mu ~ N(0, 20^2),   tau ~ half-normal(10) or known.
 ///
-/// The parameters are mu, log(tau) if tau is unknown, and theta_1 ... theta_8. Given tau everything is normal: evidence and moments
-/// in closed form.
+/// The parameters are mu, log(tau) if tau is unknown, and theta_1 ... theta_8. Given tau everything
+/// is normal: evidence and moments in closed form.
 #pragma once
 
 #include <array>
@@ -18,10 +18,14 @@
 namespace eight_groups {
 
 constexpr std::size_t groups = 8;
-constexpr std::array<double, groups> measured = {28, 8, -3, 7, -1, 1, 18, 12};  ///< y_j, points of a test
-constexpr std::array<double, groups> errors = {15, 10, 16, 11, 9, 11, 10, 18};  ///< s_j
-constexpr double centre_sd = 20.0;                                              ///< of the prior of mu
-constexpr double spread_sd = 10.0;  ///< of the half-normal prior of tau
+/// y_j, points of a test.
+constexpr std::array<double, groups> measured = {28, 8, -3, 7, -1, 1, 18, 12};
+/// s_j.
+constexpr std::array<double, groups> errors = {15, 10, 16, 11, 9, 11, 10, 18};
+/// Of the prior of mu.
+constexpr double centre_sd = 20.0;
+/// Of the half-normal prior of tau.
+constexpr double spread_sd = 10.0;
 
 /// log N(x; mean, sd^2).
 inline double log_normal_density(double x, double mean, double sd) {
@@ -29,7 +33,8 @@ inline double log_normal_density(double x, double mean, double sd) {
   return -0.5 * z * z - std::log(sd) - 0.91893853320467274178;
 }
 
-/// The prior. If tau is unknown there is one more parameter, log(tau), whose density has the Jacobian tau.
+/// The prior. If tau is unknown there is one more parameter, log(tau), whose density has the
+/// Jacobian tau.
 inline tmcmc::Prior prior(std::optional<double> known_tau) {
   const Eigen::Index first = known_tau ? 1 : 2;  // of the thetas
   const auto spread = tmcmc::Marginal::half_normal(spread_sd);
@@ -89,7 +94,8 @@ struct Exact {
   std::array<double, groups> theta_sd{};
 };
 
-/// Evidence and posterior moments given tau. With v_j = s_j^2 + tau^2 the measurements are N(mu, v_j) given mu.
+/// Evidence and posterior moments given tau. With v_j = s_j^2 + tau^2 the measurements are N(mu,
+/// v_j) given mu.
 inline Exact exact(double tau) {
   Exact result;
   double precision = 1.0 / (centre_sd * centre_sd);

@@ -96,7 +96,8 @@ std::optional<models::GaussianData> data_of(const ProblemOptions& options,
   return data;
 }
 
-/// Gives the model the log-likelihood of a program, worker or server, and its outputs if there are data to compare them with.
+/// Gives the model the log-likelihood of a program, worker or server, and its outputs if there are
+/// data to compare them with.
 template <class External>
 void set_functions(Model& model, External external, const std::optional<models::GaussianData>& data) {
   if (!data) {

@@ -1,6 +1,6 @@
 /// \file
-/// Another program as the model of own_model: called once per batch, started once, or behind a UM-Bridge
-/// server.
+/// Another program as the model of own_model: called once per batch, started once, or behind a
+/// UM-Bridge server.
 #pragma once
 
 #include "own_models.hpp"

@@ -29,8 +29,8 @@ command_line::CornerSamples pooled(const std::vector<tmcmc::Result>& runs, const
   return samples;
 }
 
-/// Writes the stages. The rounds of a search, of which a run of independent draws consists, have neither
-/// acceptance rate nor evidence.
+/// Writes the stages. The rounds of a search, of which a run of independent draws consists, have
+/// neither acceptance rate nor evidence.
 void write_stages(command_line::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t r = 0; r < runs.size(); ++r) {

@@ -9,9 +9,10 @@
 
 namespace examples {
 
-/// The tables of the figures, and the figures that gnuplot draws from them as PDF and PNG: samples_corner,
-/// samples_marginals, samples_stages and, for a model with outputs, samples_predictive. The directory is
-/// created if it does not exist; files with these names are replaced.
+/// The tables of the figures, and the figures that gnuplot draws from them as PDF and PNG:
+/// samples_corner, samples_marginals, samples_stages and, for a model with outputs,
+/// samples_predictive. The directory is created if it does not exist; files with these names are
+/// replaced.
 class OwnFigures {
  public:
   /// \param directory  directory of the figures; empty: none are made
@@ -19,9 +20,11 @@ class OwnFigures {
   explicit OwnFigures(std::string directory);
 
   /// Writes the tables and draws the figures, after the other results are in place; the figure that
-  /// evaluates the model again comes last. Without gnuplot only the tables are written, with a warning.
+  /// evaluates the model again comes last. Without gnuplot only the tables are written, with a
+  /// warning.
   /// \param runs  completed runs, at least one
-  /// \param draws  number of posterior draws at which the model is evaluated; 0: no samples_predictive
+  /// \param draws  number of posterior draws at which the model is evaluated; 0: no
+  ///        samples_predictive
   /// \param begin  as in predict
   /// \throws io::OutputError; if the model fails or a signal is received, std::runtime_error or
   ///         io::Interrupted, which say that everything else is in place
@@ -32,7 +35,8 @@ class OwnFigures {
   [[nodiscard]] std::string path(const std::string& name) const { return directory_ + "/" + name; }
   [[nodiscard]] bool draw(const std::string& figure) const;
 
-  std::string directory_;  // absolute
+  // absolute
+  std::string directory_;
 };
 
 }  // namespace examples

@@ -1,6 +1,7 @@
-// A model of one's own, from measurements to a posterior (docs/own_model.md). A problem file, or the command line, says which
-// parameters there are, what the model is (C++ of own_models.cpp; or another program, called once a batch of points, started once, or
-// behind a server of UM-Bridge), what was measured, and where the results go. Without any it is the two-storey shear frame of
+// A model of one's own, from measurements to a posterior (docs/own_model.md). A problem file, or
+// the command line, says which parameters there are, what the model is (C++ of own_models.cpp; or
+// another program, called once a batch of points, started once, or behind a server of UM-Bridge),
+// what was measured, and where the results go. Without any it is the two-storey shear frame of
 // shear_frame.hpp, whose storey stiffnesses are inferred from measured natural frequencies.
 //
 // Data: data/examples/, made by data/examples/simulate_frame.py; or the reader's own measurements.
@@ -35,8 +36,8 @@ const char* advice(tmcmc::StopReason stop) {
   }
 }
 
-/// The checkpoint of a run, counted from 1; empty for none. A device, which keeps nothing, is used for all
-/// runs.
+/// The checkpoint of a run, counted from 1; empty for none. A device, which keeps nothing, is used
+/// for all runs.
 std::string checkpoint_of(const std::string& base, long run) {
   std::error_code ignored;
   const bool is_device =

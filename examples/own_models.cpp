@@ -49,8 +49,8 @@ Model shear_frame(const ProblemOptions& options) {
           description, measurements, compared};
 }
 
-/// Phase angles, each within half a turn of the measured one, followed by nominal frequency ratios: the
-/// values that friction::Likelihood compares.
+/// Phase angles, each within half a turn of the measured one, followed by nominal frequency ratios:
+/// the values that friction::Likelihood compares.
 ComparedOutputs rig_outputs(const friction::Observations& measured, const friction::Physics& physics) {
   const auto n = static_cast<Eigen::Index>(measured.size());
   ComparedOutputs compared;
@@ -106,7 +106,8 @@ Model friction_rig(const ProblemOptions& options) {
           rig_outputs(measured, physics)};
 }
 
-/// The models in C++ by the names that built_in takes. One of your own is a function like these, and a row here.
+/// The models in C++ by the names that built_in takes. One of your own is a function like these,
+/// and a row here.
 const std::vector<std::pair<std::string, Model (*)(const ProblemOptions&)>> built_in_models = {
     {"shear_frame", shear_frame}, {"friction", friction_rig}};
 

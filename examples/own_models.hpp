@@ -17,32 +17,40 @@ namespace examples {
 
 /// Data about the measurements, for the NetCDF file.
 struct Measurements {
-  std::vector<storage::Column> observed = {};  ///< what was measured
-  std::vector<storage::Column> constant = {};  ///< further data on each measurement
-  /// Log-likelihoods of single observations of a population, under the name of an observed variable; may be
-  /// empty.
+  /// What was measured.
+  std::vector<storage::Column> observed = {};
+  /// Further data on each measurement.
+  std::vector<storage::Column> constant = {};
+  /// Log-likelihoods of single observations of a population, under the name of an observed
+  /// variable; may be empty.
   std::function<std::vector<std::pair<std::string, Eigen::MatrixXd>>(const Eigen::MatrixXd& points)>
       pointwise = {};
 };
 
 /// The outputs of a model that its likelihood compares with the measurements.
 struct ComparedOutputs {
-  /// Outputs at points of all parameters, as many as there are values in Measurements::observed and in the
-  /// same order; empty for a model that gives only the log-likelihood.
+  /// Outputs at points of all parameters, as many as there are values in Measurements::observed and
+  /// in the same order; empty for a model that gives only the log-likelihood.
   models::ForwardModel outputs = {};
   /// Standard deviations of the measurement errors at a point, in the units of the outputs.
   std::function<Eigen::RowVectorXd(const Eigen::RowVectorXd& point, const Eigen::RowVectorXd& outputs)>
       noise = {};
-  std::vector<std::string> labels = {};  ///< short labels of the measurements; empty: their numbers
+  /// Short labels of the measurements; empty: their numbers.
+  std::vector<std::string> labels = {};
 };
 
 /// A log-likelihood, its prior, and the data belonging to both.
 struct Model {
-  tmcmc::Prior prior;                   ///< of the parameters, in the order of the columns of the points
-  tmcmc::LogLikelihood log_likelihood;  ///< log-likelihood of a batch of points
-  std::string description;         ///< one line that names all that the values depend on, for the checkpoint
-  Measurements measurements = {};  ///< empty for a program that keeps its data to itself
-  ComparedOutputs compared = {};   ///< empty for a program that keeps its data to itself
+  /// Of the parameters, in the order of the columns of the points.
+  tmcmc::Prior prior;
+  /// Log-likelihood of a batch of points.
+  tmcmc::LogLikelihood log_likelihood;
+  /// One line that names all that the values depend on, for the checkpoint.
+  std::string description;
+  /// Empty for a program that keeps its data to itself.
+  Measurements measurements = {};
+  /// Empty for a program that keeps its data to itself.
+  ComparedOutputs compared = {};
 };
 
 /// Functions that are informed of the progress of a run.
@@ -73,9 +81,9 @@ template <class Values>
 [[nodiscard]] std::vector<std::string> built_in_names();
 
 /// The model selected by the options; another program is called concurrently.
-/// \throws std::invalid_argument for more than one model, or for a server without the name of a model;
-///         io::InputError naming file, line, field and value; models::ModelError if the program cannot be
-///         run.
+/// \throws std::invalid_argument for more than one model, or for a server without the name of a
+///         model; io::InputError naming file, line, field and value; models::ModelError if the
+///         program cannot be run.
 [[nodiscard]] Model make_model(const ProblemOptions& options, const Listeners& listeners);
 
 }  // namespace examples

@@ -14,22 +14,27 @@ namespace examples {
 
 /// A measurement, and the band of its posterior predictive distribution.
 struct PredictedMeasurement {
-  std::string quantity;    ///< name of the quantity in Measurements::observed
-  std::size_t number = 0;  ///< number among the measurements of the quantity, from 1
-  std::string label;       ///< label in ComparedOutputs, or the number
-  double observed = 0.0;   ///< measured value, in its unit, as is the band
+  /// Name of the quantity in Measurements::observed.
+  std::string quantity;
+  /// Number among the measurements of the quantity, from 1.
+  std::size_t number = 0;
+  /// Label in ComparedOutputs, or the number.
+  std::string label;
+  /// Measured value, in its unit, as is the band.
+  double observed = 0.0;
   statistics::PredictiveBand band;
 };
 
 /// All measurements, in the order of Measurements::observed.
 struct Prediction {
   std::vector<PredictedMeasurement> measurements;
-  tmcmc::Index evaluations = 0;  ///< evaluations of the model for the prediction alone
+  /// Evaluations of the model for the prediction alone.
+  tmcmc::Index evaluations = 0;
 };
 
-/// Evaluates the model at equally weighted draws of all runs, each of which has the same weight: evenly
-/// spaced in the cumulative weight (statistics::equal_rows), so that they depend on the runs alone. A point
-/// that is drawn several times is evaluated once; calls have at most 100 points.
+/// Evaluates the model at equally weighted draws of all runs, each of which has the same weight:
+/// evenly spaced in the cumulative weight (statistics::equal_rows), so that they depend on the runs
+/// alone. A point that is drawn several times is evaluated once; calls have at most 100 points.
 /// \param model  a model with outputs
 /// \param draws  number of draws, at least 1
 /// \param begin  called with the number of evaluations before the first one
@@ -38,8 +43,8 @@ struct Prediction {
 [[nodiscard]] Prediction predict(const std::vector<tmcmc::Result>& runs, const Model& model,
                                  tmcmc::Index draws, const std::function<void(tmcmc::Index)>& begin);
 
-/// Columns of predictive.csv, and its rows: each measurement with its band, and the same less the median in standard deviations of a
-/// new measurement (the columns that end in _score).
+/// Columns of predictive.csv, and its rows: each measurement with its band, and the same less the
+/// median in standard deviations of a new measurement (the columns that end in _score).
 [[nodiscard]] const std::vector<std::string>& prediction_columns();
 void write_prediction(command_line::OptionalCsv& csv, const Prediction& prediction);
 

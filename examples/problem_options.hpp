@@ -17,44 +17,71 @@
 
 namespace examples {
 
-/// The options of the problem. Each value, except the tables of parameters and correlations, is both a key
-/// in one of the tables of the file and an option of the command line, which takes precedence. Paths in the
-/// file are relative to the file.
+/// The options of the problem. Each value, except the tables of parameters and correlations, is
+/// both a key in one of the tables of the file and an option of the command line, which takes
+/// precedence. Paths in the file are relative to the file.
 class ProblemOptions {
  public:
   /// Adds the options, and the file as the positional argument.
   explicit ProblemOptions(CLI::App& app);
 
-  std::string built_in = "shear_frame";  ///< model in C++ by its name; the default if no other is given
-  std::string command;                   ///< program that is called for each batch; empty: none
-  std::string worker;                    ///< program that keeps running; empty: none
-  std::string um_bridge;                 ///< address of a UM-Bridge server; empty: none
-  std::string model;                     ///< name of the model on that server
-  std::string config = "{}";             ///< JSON object that is passed to that model
-  double driving_force_n = 2.5;          ///< k Y_b of the friction rig, N
-  double timeout_seconds = 0.0;          ///< time limit of a call; 0: none
-  std::optional<long> parallel;          ///< largest number of concurrent calls; default: as many as threads
-  long batch = 0;                        ///< largest number of points per call; 0: equal shares
+  /// Model in C++ by its name; the default if no other is given.
+  std::string built_in = "shear_frame";
+  /// Program that is called for each batch; empty: none.
+  std::string command;
+  /// Program that keeps running; empty: none.
+  std::string worker;
+  /// Address of a UM-Bridge server; empty: none.
+  std::string um_bridge;
+  /// Name of the model on that server.
+  std::string model;
+  /// JSON object that is passed to that model.
+  std::string config = "{}";
+  /// k Y_b of the friction rig, N.
+  double driving_force_n = 2.5;
+  /// Time limit of a call; 0: none.
+  double timeout_seconds = 0.0;
+  /// Largest number of concurrent calls; default: as many as threads.
+  std::optional<long> parallel;
+  /// Largest number of points per call; 0: equal shares.
+  long batch = 0;
 
-  std::string observations;         ///< CSV of the data
-  std::string observation;          ///< its column with which model outputs are compared
-  std::string standard_deviation;   ///< its column, or one number for all
-  std::string noise;                ///< the parameter that multiplies the standard deviations; empty: none
-  std::vector<double> observed;     ///< numbers of the problem file in the place of the column
-  std::vector<double> observed_sd;  ///< numbers of the problem file in the place of standard_deviation
-  problem::PriorFiles prior;        ///< files in the place of the table of parameters
+  /// CSV of the data.
+  std::string observations;
+  /// Its column with which model outputs are compared.
+  std::string observation;
+  /// Its column, or one number for all.
+  std::string standard_deviation;
+  /// The parameter that multiplies the standard deviations; empty: none.
+  std::string noise;
+  /// Numbers of the problem file in the place of the column.
+  std::vector<double> observed;
+  /// Numbers of the problem file in the place of standard_deviation.
+  std::vector<double> observed_sd;
+  /// Files in the place of the table of parameters.
+  problem::PriorFiles prior;
 
-  long evaluations = 31000;  ///< evaluations of a run
-  long runs = 1;             ///< number of independent runs
-  std::uint64_t seed = 1;    ///< seed of all runs
-  int threads = 0;           ///< 0: as many as the machine has
+  /// Evaluations of a run.
+  long evaluations = 31000;
+  /// Number of independent runs.
+  long runs = 1;
+  /// Seed of all runs.
+  std::uint64_t seed = 1;
+  /// 0: as many as the machine has.
+  int threads = 0;
 
-  std::string output;           ///< CSV of the samples
-  std::string netcdf;           ///< samples, stages, observations
-  std::string figures;          ///< directory of figures and their tables
-  long predictive_draws = 500;  ///< of the posterior, at which the model is evaluated for them; 0: none
-  std::string summary;          ///< CSV of the table that is printed
-  std::string checkpoint;       ///< kept stages
+  /// CSV of the samples.
+  std::string output;
+  /// Samples, stages, observations.
+  std::string netcdf;
+  /// Directory of figures and their tables.
+  std::string figures;
+  /// Of the posterior, at which the model is evaluated for them; 0: none.
+  long predictive_draws = 500;
+  /// CSV of the table that is printed.
+  std::string summary;
+  /// Kept stages.
+  std::string checkpoint;
 
   /// The problem file; nothing if none is given.
   [[nodiscard]] const std::optional<problem::File>& file() const { return file_; }
@@ -62,13 +89,14 @@ class ProblemOptions {
   [[nodiscard]] bool is_given(const std::string& option) const;
   /// Whether the model is another program.
   [[nodiscard]] bool is_other_program() const;
-  /// The recommended options, with enough chains that a batch justifies the start of a program; if an option
-  /// of the sampler was given, the recommended moves with that option.
+  /// The recommended options, with enough chains that a batch justifies the start of a program; if
+  /// an option of the sampler was given, the recommended moves with that option.
   /// \throws errors::InvalidValue naming the option or the place in the file.
   [[nodiscard]] tmcmc::Options sampler() const;
   /// The number of threads, with 0 resolved.
   [[nodiscard]] int thread_count() const;
-  /// Refuses a value of the problem file or the command line: "problem.toml:3: data.noise: value 'x': expected ...".
+  /// Refuses a value of the problem file or the command line: "problem.toml:3: data.noise: value
+  /// 'x': expected ...".
   [[noreturn]] void refuse(const std::string& option, const std::string& expected) const;
 
  private:

@@ -16,15 +16,15 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string column_or_number = "COLUMN|FLOAT";
-/// The one of these options that is given selects the model: a choice on the command line replaces that of
-/// the file.
+/// The one of these options that is given selects the model: a choice on the command line replaces
+/// that of the file.
 const std::vector<std::string> model_choices = {"--built-in", "--command", "--worker", "--um-bridge"};
 bool contains(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// The text of a value as the command line would give it; nothing for a value whose type differs from that
-/// of the option.
+/// The text of a value as the command line would give it; nothing for a value whose type differs
+/// from that of the option.
 std::optional<std::string> text_of(const problem::Node& node, bool is_number, const std::string& type) {
   if (const auto* boolean = std::get_if<bool>(&node.value)) {
     return type == "no|yes" ? std::optional<std::string>(*boolean ? "yes" : "no") : std::nullopt;

@@ -13,9 +13,9 @@
 
 namespace examples {
 
-/// One line on standard error, if that is a terminal, shown after half a second and updated five times a
-/// second, whether or not a call of the model has returned: run, stage, beta, log-likelihoods and time. It
-/// disappears with the object.
+/// One line on standard error, if that is a terminal, shown after half a second and updated five
+/// times a second, whether or not a call of the model has returned: run, stage, beta,
+/// log-likelihoods and time. It disappears with the object.
 class RunProgress {
  public:
   /// \param runs  number of runs
@@ -27,7 +27,8 @@ class RunProgress {
 
   /// Marks the beginning of a run, counted from 1.
   void begin(long run);
-  /// Announces that after the runs the model is evaluated so many more times, for the posterior prediction.
+  /// Announces that after the runs the model is evaluated so many more times, for the posterior
+  /// prediction.
   void begin_prediction(tmcmc::Index evaluations);
   /// Adds a number of completed evaluations; may be called from any thread.
   void advance(tmcmc::Index evaluations) { done_ += evaluations; }
@@ -40,14 +41,17 @@ class RunProgress {
   long runs_;
   long evaluations_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::atomic<long> done_ = 0;        // of the run or of the prediction
-  std::atomic<long> prediction_ = 0;  // its evaluations; 0 during the runs
+  // of the run or of the prediction
+  std::atomic<long> done_ = 0;
+  // its evaluations; 0 during the runs
+  std::atomic<long> prediction_ = 0;
   std::atomic<long> run_ = 1;
   std::atomic<std::size_t> stage_ = 0;
   std::atomic<double> beta_ = 0.0;
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::jthread drawer_;  // last, so that it ends first
+  // last, so that it ends first
+  std::jthread drawer_;
 };
 
 }  // namespace examples

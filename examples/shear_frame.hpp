@@ -1,6 +1,7 @@
 /// \file
-/// A two-storey shear frame whose storey stiffnesses are inferred from measured natural frequencies, in the
-/// manner of Beck and Au (2002): the default model of own_model, to be replaced by the reader's own.
+/// A two-storey shear frame whose storey stiffnesses are inferred from measured natural
+/// frequencies, in the manner of Beck and Au (2002): the default model of own_model, to be replaced
+/// by the reader's own.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +27,8 @@ struct FrameObservations {
 /// multipliers: the roots of m^2 w^4 - m (k1 + 2 k2) w^2 + k1 k2 = 0.
 [[nodiscard]] std::array<double, 2> frame_frequencies_hz(double stiffness_1, double stiffness_2);
 
-/// Log-likelihood of storey stiffnesses and noise: each measured frequency is Normal around the frequency of
-/// the model, with a standard deviation of relative_noise times the latter.
+/// Log-likelihood of storey stiffnesses and noise: each measured frequency is Normal around the
+/// frequency of the model, with a standard deviation of relative_noise times the latter.
 class FrameLikelihood {
  public:
   /// Names of the columns of the points.
@@ -40,10 +41,12 @@ class FrameLikelihood {
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 
-  /// Log-likelihood of each single observation: n x observations, whose rows add up to the values above.
+  /// Log-likelihood of each single observation: n x observations, whose rows add up to the values
+  /// above.
   [[nodiscard]] Eigen::MatrixXd pointwise(const Eigen::Ref<const Eigen::MatrixXd>& points) const;
 
-  /// Natural frequencies of the model, Hz, with which the observations are compared: n x observations.
+  /// Natural frequencies of the model, Hz, with which the observations are compared: n x
+  /// observations.
   [[nodiscard]] Eigen::MatrixXd frequencies_hz(const Eigen::Ref<const Eigen::MatrixXd>& points) const;
 
   [[nodiscard]] const FrameObservations& observations() const { return observations_; }

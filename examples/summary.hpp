@@ -22,14 +22,15 @@ void print_summary(const command_line::Report& report, const std::vector<Paramet
 [[nodiscard]] const std::vector<std::string>& summary_columns();
 void write_summary(command_line::OptionalCsv& csv, const std::vector<ParameterSummary>& summary);
 
-/// Columns of the CSV file of the samples: the run if there are several, parameters, log-likelihood.
+/// Columns of the CSV file of the samples: the run if there are several, parameters,
+/// log-likelihood.
 [[nodiscard]] std::vector<std::string> sample_columns(const tmcmc::Prior& prior, long runs);
-/// The rows of that file, of equal weight: for weighted samples as many as their effective number, evenly
-/// spaced in the cumulative weight.
+/// The rows of that file, of equal weight: for weighted samples as many as their effective number,
+/// evenly spaced in the cumulative weight.
 void write_samples(command_line::OptionalCsv& csv, const std::vector<tmcmc::Result>& runs);
 
-/// Samples, stages and observations in the layout of ArviZ, runs as chains of the length of the shortest, with equal
-/// weights as in the CSV file.
+/// Samples, stages and observations in the layout of ArviZ, runs as chains of the length of the
+/// shortest, with equal weights as in the CSV file.
 [[nodiscard]] storage::InferenceData inference_data(const std::vector<tmcmc::Result>& runs,
                                                     const Model& model, std::uint64_t seed);
 

@@ -1,8 +1,10 @@
-// The sampler on problems with known evidence: the paper's setting, better moves, and the recommended options, each at the
-// same number of log-likelihoods. Errors of the log-evidence against the stated ones, warnings, effective draws, and masses of
-// modes. What to look for: |z| above 5 without a warning.
+// The sampler on problems with known evidence: the paper's setting, better moves, and the
+// recommended options, each at the same number of log-likelihoods. Errors of the log-evidence
+// against the stated ones, warnings, effective draws, and masses of modes. What to look for: |z|
+// above 5 without a warning.
 //
-// Data: none but the design of Table 1 and the prior of Table 2; the other problems are in closed form or by quadrature.
+// Data: none but the design of Table 1 and the prior of Table 2; the other problems are in closed
+// form or by quadrature.
 
 #include "replication/benchmark_problems.hpp"
 

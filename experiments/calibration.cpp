@@ -1,10 +1,12 @@
-// Does the sampler sample the posterior? Simulation-based calibration (Talts et al. 2018) of the published setting, of
-// better moves and of the recommended options, every run counted, also those that warn: parameters from the prior (Table 2),
-// observations from the model at these (the design of Table 1), rank of the truth among posterior draws. Uniform ranks:
-// calibrated. The published setting (N = 1000, N_eff = N/2, 3 steps of scale 0.2) and the others get the same 31 000 evaluations
-// and the same simulated observations.
+// Does the sampler sample the posterior? Simulation-based calibration (Talts et al. 2018) of the
+// published setting, of better moves and of the recommended options, every run counted, also those
+// that warn: parameters from the prior (Table 2), observations from the model at these (the design
+// of Table 1), rank of the truth among posterior draws. Uniform ranks: calibrated. The published
+// setting (N = 1000, N_eff = N/2, 3 steps of scale 0.2) and the others get the same 31 000
+// evaluations and the same simulated observations.
 //
-// Data: design of Table 1 and prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+// Data: design of Table 1 and prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the
+// reader's own.
 
 #include "replication/calibration.hpp"
 

@@ -1,8 +1,8 @@
 // Tables 1 to 4 as printed beside ours, cell by cell.
 //
-// Table 1: generated observations of the stated truth differ by their noise; r_nom is deterministic. Table 2:
-// the prior of the reading that made the study. Tables 3 and 4: p-box areas and iteration counts of the
-// sampling study.
+// Table 1: generated observations of the stated truth differ by their noise; r_nom is
+// deterministic. Table 2: the prior of the reading that made the study. Tables 3 and 4: p-box areas
+// and iteration counts of the sampling study.
 
 #include "inputs.hpp"
 #include "replication/comparison.hpp"

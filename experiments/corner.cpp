@@ -1,5 +1,6 @@
-// Samples of any parameters as a corner plot: marginal densities, joint densities of all pairs with the smallest regions that hold a
-// given probability, and a table of moments and quantiles. All samplers and runs are pooled.
+// Samples of any parameters as a corner plot: marginal densities, joint densities of all pairs with
+// the smallest regions that hold a given probability, and a table of moments and quantiles. All
+// samplers and runs are pooled.
 //
 // Data: a CSV file with a column for each parameter, such as sampling_study or own_model writes.
 
@@ -12,8 +13,8 @@ using namespace experiments;
 
 namespace {
 
-/// Whether the column is a parameter, and not one of the other columns in the files that the executables
-/// write.
+/// Whether the column is a parameter, and not one of the other columns in the files that the
+/// executables write.
 bool is_parameter(const std::string& column) {
   const std::vector<std::string> others = {"sampler", "run", "log_likelihood", "weight"};
   return std::find(others.begin(), others.end(), column) == others.end();

@@ -1,11 +1,14 @@
-// What makes the p-boxes smaller, and at what cost: likelihood evaluations of a run against the p-box areas (Table 3, Eq.
-// 25), the errors of the posterior means and the error of the log-evidence, all measured against the exact posterior. The
-// criterion, the number of samples and of steps, scale, resampling and kind of the moves are varied one at a time from the
-// published setting (N = 1000, N_eff = N/2, 3 steps); then the moves are improved one by one; then the best of these, and
-// the recommended options under either rule (N_eff = N/2 and CoV = 1), are given several budgets. Of weighted samples, 1000
-// are drawn for each run, as many as the paper's runs have (multinomial resampling, ten times over: areas are given over these).
+// What makes the p-boxes smaller, and at what cost: likelihood evaluations of a run against the
+// p-box areas (Table 3, Eq. 25), the errors of the posterior means and the error of the
+// log-evidence, all measured against the exact posterior. The criterion, the number of samples and
+// of steps, scale, resampling and kind of the moves are varied one at a time from the published
+// setting (N = 1000, N_eff = N/2, 3 steps); then the moves are improved one by one; then the best
+// of these, and the recommended options under either rule (N_eff = N/2 and CoV = 1), are given
+// several budgets. Of weighted samples, 1000 are drawn for each run, as many as the paper's runs
+// have (multinomial resampling, ten times over: areas are given over these).
 //
-// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's
+// own.
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
-// The two criteria are one equation: N_eff = N / (1 + CoV^2) (population standard deviation), so that CoV =
-// 100 % (Eq. 6) and N_eff = N/2 (Eq. 9) choose the same step. Shown on the populations of whole runs: each
-// stage solves both rules, as they are written, on the same samples; and whole runs of both samplers use the
-// same random stream. With the N-1 standard deviation of the published scripts CoV = 1 is N_eff = N / (2 -
-// 1/N) = 500.25 of 1000.
+// The two criteria are one equation: N_eff = N / (1 + CoV^2) (population standard deviation), so
+// that CoV = 100 % (Eq. 6) and N_eff = N/2 (Eq. 9) choose the same step. Shown on the populations
+// of whole runs: each stage solves both rules, as they are written, on the same samples; and whole
+// runs of both samplers use the same random stream. With the N-1 standard deviation of the
+// published scripts CoV = 1 is N_eff = N / (2 - 1/N) = 500.25 of 1000.
 //
 // Data: Table 1 and Table 2 as printed, or the reader's own.
 

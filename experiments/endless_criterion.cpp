@@ -1,6 +1,7 @@
-// What the published script of TMCMC-II does: it solves N_eff = N in place of Eq. 9's N_eff = N/2. Only equal weights have
-// N_eff = N, so the step of beta is 0, and the sampler never ends; a cap on the stages ends it cleanly. Target fractions
-// close to 1 show how the number of stages grows on the way there.
+// What the published script of TMCMC-II does: it solves N_eff = N in place of Eq. 9's N_eff = N/2.
+// Only equal weights have N_eff = N, so the step of beta is 0, and the sampler never ends; a cap on
+// the stages ends it cleanly. Target fractions close to 1 show how the number of stages grows on
+// the way there.
 //
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 

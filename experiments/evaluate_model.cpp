@@ -1,7 +1,9 @@
-// The model at given points: phase angle (Eq. 21) and limit of continuous motion (Eq. 18) for points of
-// friction force and frequency ratio, log-likelihood (Eq. 24) for points of the four parameters.
+// The model at given points: phase angle (Eq. 21) and limit of continuous motion (Eq. 18) for
+// points of friction force and frequency ratio, log-likelihood (Eq. 24) for points of the four
+// parameters.
 //
-// Data: the reader's points; for the log-likelihood the observations of Table 1 or the reader's own.
+// Data: the reader's points; for the log-likelihood the observations of Table 1 or the reader's
+// own.
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,7 @@
-// Figure 2: phase angle of the response over the frequency ratio (Eq. 21) for the stated friction force and for the
-// one that least squares fits to the observations, and along Den Hartog's boundary of continuous motion (Eq. 18), where
-// phi = phi_lim(r). The numerical data of Table 1 stand beside them in the figure.
+// Figure 2: phase angle of the response over the frequency ratio (Eq. 21) for the stated friction
+// force and for the one that least squares fits to the observations, and along Den Hartog's
+// boundary of continuous motion (Eq. 18), where phi = phi_lim(r). The numerical data of Table 1
+// stand beside them in the figure.
 
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// Figure 3: the p-box of the 50 posterior ECDFs, for each sampler and parameter, on a grid of the parameter.
+// Figure 3: the p-box of the 50 posterior ECDFs, for each sampler and parameter, on a grid of the
+// parameter.
 //
 // Data: the samples that sampling_study writes.
 

@@ -1,5 +1,5 @@
-// Figure 4: p-box areas (left half) and iteration counts (right half) of both samplers, as printed and as
-// reproduced.
+// Figure 4: p-box areas (left half) and iteration counts (right half) of both samplers, as printed
+// and as reproduced.
 //
 // Data: Tables 3 and 4, the printed ones and the generated ones.
 

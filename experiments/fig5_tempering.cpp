@@ -1,5 +1,5 @@
-// Figure 5, which the abstract of the paper promises: the evolution of the tempering parameter beta over the
-// stages of every run, by sampler.
+// Figure 5, which the abstract of the paper promises: the evolution of the tempering parameter beta
+// over the stages of every run, by sampler.
 //
 // Data: the stages that sampling_study writes.
 

@@ -1,6 +1,6 @@
-// Figures 9 and 10: the distributions that replicated studies give the printed numbers. Areas of the p-boxes as
-// distribution functions over the studies, for both samplers, and their ratio; iteration counts as the number of studies
-// in which so many of the runs took so many iterations.
+// Figures 9 and 10: the distributions that replicated studies give the printed numbers. Areas of
+// the p-boxes as distribution functions over the studies, for both samplers, and their ratio;
+// iteration counts as the number of studies in which so many of the runs took so many iterations.
 //
 // Data: replicated_study.csv; Tables 3 and 4 as printed, for the marks.
 

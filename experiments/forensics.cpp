@@ -1,9 +1,12 @@
-// Forensics: which settings of the sampler could have made the printed pair of columns? A search after the fact, over settings that the
-// published scripts leave open or nearly: steps a move, what happens to a proposal outside the prior, the deviation in the criterion,
-// the penalty of infeasible samples, runs stitched from two settings, iterations counted from another start. Each setting is
-// calibrated against its own studies, and the search as a whole against what it finds in studies of one sampler.
+// Forensics: which settings of the sampler could have made the printed pair of columns? A search
+// after the fact, over settings that the published scripts leave open or nearly: steps a move, what
+// happens to a proposal outside the prior, the deviation in the criterion, the penalty of
+// infeasible samples, runs stitched from two settings, iterations counted from another start. Each
+// setting is calibrated against its own studies, and the search as a whole against what it finds in
+// studies of one sampler.
 //
-// Data: Tables 1 to 4 as printed; replicated_study.csv, whose studies of both samplers are those of the first setting.
+// Data: Tables 1 to 4 as printed; replicated_study.csv, whose studies of both samplers are those of
+// the first setting.
 
 #include "replication/forensics.hpp"
 

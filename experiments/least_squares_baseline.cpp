@@ -1,6 +1,6 @@
-// The deterministic baseline: least squares with Ceres, of the phase angles in the friction force and of the nominal
-// frequency ratios in the natural frequency, with maximum-likelihood noise levels. What the samplers' posteriors stand
-// beside in Figure 3.
+// The deterministic baseline: least squares with Ceres, of the phase angles in the friction force
+// and of the nominal frequency ratios in the natural frequency, with maximum-likelihood noise
+// levels. What the samplers' posteriors stand beside in Figure 3.
 //
 // Data: Table 1 as printed, or the reader's own measurements.
 

@@ -1,10 +1,11 @@
-// Validation of the model: Den Hartog's phase angle (Eqs. 15-21) against event-driven integration of Eq. 10 in time; the
-// error of the published discretisation (phase from a 901-point transform, limit of Eq. 18 on a grid of 14 points); the
-// response beyond the limit of continuous motion, where the analytic model is NaN; and an open question of the paper's
-// Section 4: does the posterior change when stick-slip responses are computed instead of given the likelihood 0?
+// Validation of the model: Den Hartog's phase angle (Eqs. 15-21) against event-driven integration
+// of Eq. 10 in time; the error of the published discretisation (phase from a 901-point transform,
+// limit of Eq. 18 on a grid of 14 points); the response beyond the limit of continuous motion,
+// where the analytic model is NaN; and an open question of the paper's Section 4: does the
+// posterior change when stick-slip responses are computed instead of given the likelihood 0?
 //
-// Data: frequency ratios and phase angles of Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL
-// 2023), or the reader's own.
+// Data: frequency ratios and phase angles of Table 1 and the prior of Table 2 as printed in Lye and
+// Marino (ESREL 2023), or the reader's own.
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +54,8 @@ void check_phases(const Report& report, OptionalCsv& csv, const friction::Observ
       largest, compared, stopping_below, continuous_beyond, between);
 }
 
-/// Phase of the discrete bin minus the exact phase, and the limit on the grid relative to the exact limit,
-/// over r.
+/// Phase of the discrete bin minus the exact phase, and the limit on the grid relative to the exact
+/// limit, over r.
 void published_errors(const Report& report, OptionalCsv& csv, double friction_force_n, double driving_force_n,
                       long points) {
   constexpr double lowest = 0.6, highest = 2.0;

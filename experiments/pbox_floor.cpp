@@ -1,7 +1,9 @@
-// The floor of the p-box area (Table 3, Eq. 25): what the area would be if the runs were independent exact draws from the
-// posterior, K studies of R sets of N draws each. What a sampler's area has beyond it measures how its chains mix.
+// The floor of the p-box area (Table 3, Eq. 25): what the area would be if the runs were
+// independent exact draws from the posterior, K studies of R sets of N draws each. What a sampler's
+// area has beyond it measures how its chains mix.
 //
-// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's
+// own.
 
 #include "inputs.hpp"
 #include "replication/exact_runs.hpp"
@@ -22,8 +24,8 @@ void write_pboxes(OptionalCsv& csv, const replication::Ecdfs& ecdfs, long points
   }
 }
 
-/// Median areas of few studies over a grid of runs and draws per run: the floor grows with the number of
-/// runs and falls with the number of draws.
+/// Median areas of few studies over a grid of runs and draws per run: the floor grows with the
+/// number of runs and falls with the number of draws.
 void write_growth(OptionalCsv& csv, const estimation::ExactPosterior& posterior, std::uint64_t seed) {
   for (const long runs : {10, 50, 200}) {
     for (const long samples : {1000, 4000, 16000}) {

@@ -1,8 +1,10 @@
-// What the posterior predicts for new measurements of the rig: the phase angle over the frequency ratio (Eqs. 21 and 23) and the
-// frequency ratio over the driving frequency (Eq. 24), with central 95 % bands of the model and of a measurement with noise. And how
-// the measurements lie in them, each also predicted from the others alone. The draws are exact (estimation::ExactPosterior).
+// What the posterior predicts for new measurements of the rig: the phase angle over the frequency
+// ratio (Eqs. 21 and 23) and the frequency ratio over the driving frequency (Eq. 24), with central
+// 95 % bands of the model and of a measurement with noise. And how the measurements lie in them,
+// each also predicted from the others alone. The draws are exact (estimation::ExactPosterior).
 //
-// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's
+// own.
 
 #include "inputs.hpp"
 #include "io/interrupt.hpp"

@@ -1,8 +1,10 @@
-// How much the posterior, the evidence, the p-boxes and their cost owe to the prior of the noise levels: the uniform box of
-// Table 2 beside log-uniform noise levels between the same bounds and half-normal ones, with a standard deviation of half the
-// upper bound; each by the paper's two samplers and the recommended one, and each against quadrature.
+// How much the posterior, the evidence, the p-boxes and their cost owe to the prior of the noise
+// levels: the uniform box of Table 2 beside log-uniform noise levels between the same bounds and
+// half-normal ones, with a standard deviation of half the upper bound; each by the paper's two
+// samplers and the recommended one, and each against quadrature.
 //
-// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's
+// own.
 
 #include <array>
 

@@ -1,9 +1,11 @@
-// Which reading of the paper makes the printed numbers? Each difference between text, published scripts and mathematics
-// changed alone from `as_published`, and the three presets, with the effect on every number of Tables 3 and 4, the
-// distance to the exact posterior, and the joint likelihood of both tables.
+// Which reading of the paper makes the printed numbers? Each difference between text, published
+// scripts and mathematics changed alone from `as_published`, and the three presets, with the effect
+// on every number of Tables 3 and 4, the distance to the exact posterior, and the joint likelihood
+// of both tables.
 //
-// Data: Tables 1 to 4 as printed. Where the published script takes the frequency ratios of the phase model from a column
-// that is not in the paper, that column is drawn at random (r_nom + noise), anew in each study.
+// Data: Tables 1 to 4 as printed. Where the published script takes the frequency ratios of the
+// phase model from a column that is not in the paper, that column is drawn at random (r_nom +
+// noise), anew in each study.
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
-// The whole study of the paper (50 runs of TMCMC and of TMCMC-II) many times over: the null distribution that every
-// printed number is judged by. Rows are kept as they come: a process that was killed goes on where it stopped, and ends
-// with the same bytes. Shards (--first-study) concatenate to the file of one process.
+// The whole study of the paper (50 runs of TMCMC and of TMCMC-II) many times over: the null
+// distribution that every printed number is judged by. Rows are kept as they come: a process that
+// was killed goes on where it stopped, and ends with the same bytes. Shards (--first-study)
+// concatenate to the file of one process.
 //
 // Data: Table 1 and the prior of Table 2 as printed, or the reader's own.
 

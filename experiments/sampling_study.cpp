@@ -1,8 +1,9 @@
-// The sampling study behind Tables 3 and 4 and Figures 3 to 5: R runs (50) of TMCMC and of TMCMC-II with N
-// samples (1000) each, for the posterior of friction force, natural frequency and the two noise levels (Eqs.
-// 1-9, 24).
+// The sampling study behind Tables 3 and 4 and Figures 3 to 5: R runs (50) of TMCMC and of TMCMC-II
+// with N samples (1000) each, for the posterior of friction force, natural frequency and the two
+// noise levels (Eqs. 1-9, 24).
 //
-// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
+// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's
+// own.
 
 #include "inputs.hpp"
 

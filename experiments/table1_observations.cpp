@@ -1,7 +1,9 @@
-// Table 1: observations with noise (Eqs. 22-23) for any truth, noise levels and seed; and an audit of the printed table, with the phase
-// and the limit of the reading and with the exact ones: standardised residuals, chi^2 and likelihood-ratio tests of the stated truth
-// (1.086 N) and of 1.0 N, confidence intervals. Data: Table 1 as printed, or the reader's own observations: a truth that is given
-// is that of the observations generated, and audits those of --observations, not the printed ones.
+// Table 1: observations with noise (Eqs. 22-23) for any truth, noise levels and seed; and an audit
+// of the printed table, with the phase and the limit of the reading and with the exact ones:
+// standardised residuals, chi^2 and likelihood-ratio tests of the stated truth (1.086 N) and of 1.0
+// N, confidence intervals. Data: Table 1 as printed, or the reader's own observations: a truth that
+// is given is that of the observations generated, and audits those of --observations, not the
+// printed ones.
 
 #include <algorithm>
 #include <cmath>

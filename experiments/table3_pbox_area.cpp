@@ -1,7 +1,8 @@
 // Table 3: area of the p-box of the runs' ECDFs (Eq. 25), for each sampler and parameter.
 //
-// Data: the samples that sampling_study writes; any CSV with columns sampler, run and one or more parameters
-// will do, also with unequal numbers of samples a run. A column weight holds weights of the samples.
+// Data: the samples that sampling_study writes; any CSV with columns sampler, run and one or more
+// parameters will do, also with unequal numbers of samples a run. A column weight holds weights of
+// the samples.
 
 #include "inputs.hpp"
 #include "pbox/pbox.hpp"

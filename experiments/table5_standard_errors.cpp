@@ -1,6 +1,6 @@
-// Table 5, which the abstract of the paper promises: the standard error of the estimates. For each sampler
-// and parameter the posterior mean of a run has a spread over the runs; independent samples would have sd /
-// sqrt(N). The ratio squared says how many independent samples a run of N is worth.
+// Table 5, which the abstract of the paper promises: the standard error of the estimates. For each
+// sampler and parameter the posterior mean of a run has a spread over the runs; independent samples
+// would have sd / sqrt(N). The ratio squared says how many independent samples a run of N is worth.
 //
 // Data: the samples that sampling_study writes.
 

@@ -1,8 +1,10 @@
-// A verdict on every printed number and claim of the paper, with its evidence. Each number of Tables 3 and 4 gets its
-// place in the distribution that replicated studies give it; each claim a statistic. That a number is reproduced and that
-// a claim is supported are two things, and stand in two columns.
+// A verdict on every printed number and claim of the paper, with its evidence. Each number of
+// Tables 3 and 4 gets its place in the distribution that replicated studies give it; each claim a
+// statistic. That a number is reproduced and that a claim is supported are two things, and stand in
+// two columns.
 //
-// Data: Tables 3 and 4 and the claims as printed; replicated_study.csv; the exact posterior for C1 and Table 1 for C7.
+// Data: Tables 3 and 4 and the claims as printed; replicated_study.csv; the exact posterior for C1
+// and Table 1 for C7.
 
 #include <boost/algorithm/string/replace.hpp>
 

@@ -1,4 +1,5 @@
-// What the Python module takes from the libraries; python/tmcmc gives it names, checks and documentation.
+// What the Python module takes from the libraries; python/tmcmc gives it names, checks and
+// documentation.
 
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -40,8 +41,9 @@ void look_for_signals() {
   }
 }
 
-/// A Python function of an (n, d) array as a batch log-likelihood. It is called with the interpreter's lock, between calls signals
-/// are looked for, and what it raises passes through the sampler.
+/// A Python function of an (n, d) array as a batch log-likelihood. It is called with the
+/// interpreter's lock, between calls signals are looked for, and what it raises passes through the
+/// sampler.
 tmcmc::LogLikelihood batch_of(const py::function& function) {
   return [&function](const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Ref<Eigen::VectorXd> values) {
     const py::gil_scoped_acquire lock;
@@ -89,7 +91,8 @@ using GivenOptions = std::map<std::string, std::string>;
 
 constexpr long default_chains = 100;
 
-/// The recommended options; the recommended moves with what was given, whose names the caller has checked.
+/// The recommended options; the recommended moves with what was given, whose names the caller has
+/// checked.
 tmcmc::Options options_of(long evaluations, std::optional<long> chains, const GivenOptions& given) {
   try {
     tmcmc::Options options = chains || !given.empty()
@@ -109,7 +112,8 @@ tmcmc::Options options_of(long evaluations, std::optional<long> chains, const Gi
   }
 }
 
-/// \param marginals  of each parameter its name, the name of its distribution and the arguments by name
+/// \param marginals  of each parameter its name, the name of its distribution and the arguments by
+///        name
 py::dict run(const py::function& log_likelihood, const Marginals& marginals, long evaluations,
              std::optional<long> chains, std::uint64_t seed, std::uint32_t run_number,
              const GivenOptions& given) {

@@ -1,5 +1,6 @@
-// What the page calls: a thin binding of the library's study, exact posterior and phase model. A study is set up by the words of
-// sampling_study's command line, so that the page and the command line have the same options and the same messages.
+// What the page calls: a thin binding of the library's study, exact posterior and phase model. A
+// study is set up by the words of sampling_study's command line, so that the page and the command
+// line have the same options and the same messages.
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
@@ -166,8 +167,8 @@ class Study {
     return numbers(areas);
   }
 
-  /// The p-boxes of all samplers' runs so far at `count` places, at least from low to high: x, and for each sampler the least and
-  /// the largest fraction.
+  /// The p-boxes of all samplers' runs so far at `count` places, at least from low to high: x, and
+  /// for each sampler the least and the largest fraction.
   [[nodiscard]] val pboxes(std::size_t parameter, double low, double high, std::size_t count) const {
     for (const auto& of_arm : ecdfs_) {
       for (const auto& ecdf : of_arm.at(parameter)) {
@@ -197,7 +198,8 @@ class Study {
     return boxes;
   }
 
-  /// The samples of one parameter of a sampler's last run, in ascending order; of weighted ones 1000 that were drawn.
+  /// The samples of one parameter of a sampler's last run, in ascending order; of weighted ones
+  /// 1000 that were drawn.
   [[nodiscard]] val samples(std::size_t arm, std::size_t parameter) const {
     const auto sorted = ecdfs_.at(arm).at(parameter).back().sorted();
     return numbers(sorted.data(), sorted.size());
@@ -329,7 +331,8 @@ val fit_of(const site::Fit& fit) {
   return all;
 }
 
-/// Both least-squares fits under the settings of a study, standard errors with the noise of the residuals.
+/// Both least-squares fits under the settings of a study, standard errors with the noise of the
+/// residuals.
 val least_squares(const val& words) {
   const Settings settings(words_of(words));
   const auto o = experiments::read_observations(settings.inputs.observations);
@@ -339,7 +342,8 @@ val least_squares(const val& words) {
   return all;
 }
 
-/// Phase angle, deg, over frequency ratios: in closed form (NaN where the mass sticks) and by integration in time.
+/// Phase angle, deg, over frequency ratios: in closed form (NaN where the mass sticks) and by
+/// integration in time.
 val phase_curve(double force_ratio, const val& ratios, bool integrate) {
   const auto r = emscripten::convertJSArrayToNumberVector<double>(ratios);
   std::vector<double> closed, integrated, limit;
@@ -365,7 +369,8 @@ val phase_curve(double force_ratio, const val& ratios, bool integrate) {
   return all;
 }
 
-/// The steady motion over two periods of the base: tau in periods, x in base amplitudes, and whether the mass sticks.
+/// The steady motion over two periods of the base: tau in periods, x in base amplitudes, and
+/// whether the mass sticks.
 val steady_motion(double frequency_ratio, double force_ratio) {
   const auto steady = friction::integrate_steady_response(frequency_ratio, force_ratio);
   val all = val::object();

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Residuals of the phases, deg, and their derivatives in F_mu; NaN where the mass sticks, which TinySolver refuses as a step.
+/// Residuals of the phases, deg, and their derivatives in F_mu; NaN where the mass sticks, which
+/// TinySolver refuses as a step.
 struct PhaseResiduals {
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 1 };

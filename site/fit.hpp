@@ -1,6 +1,7 @@
 /// \file
-/// Least squares in the browser: the minima of estimation::fit_least_squares, without Ceres' solver, which cannot be had there.
-/// TinySolver (Levenberg-Marquardt, of the same project) and automatic derivatives take its place.
+/// Least squares in the browser: the minima of estimation::fit_least_squares, without Ceres'
+/// solver, which cannot be had there. TinySolver (Levenberg-Marquardt, of the same project) and
+/// automatic derivatives take its place.
 #pragma once
 
 #include "friction/observations.hpp"
@@ -10,10 +11,14 @@ namespace site {
 
 /// A weighted fit with one unknown, as estimation::BlockFit has it.
 struct Fit {
-  double estimate = 0.0;        ///< N or Hz
-  double noise = 0.0;           ///< maximum-likelihood noise level; NaN for one observation or a perfect fit
-  double standard_error = 0.0;  ///< with that noise; NaN where it is
-  bool at_bound = false;        ///< the limit of continuous motion, or 0
+  /// N or Hz.
+  double estimate = 0.0;
+  /// Maximum-likelihood noise level; NaN for one observation or a perfect fit.
+  double noise = 0.0;
+  /// With that noise; NaN where it is.
+  double standard_error = 0.0;
+  /// The limit of continuous motion, or 0.
+  bool at_bound = false;
 };
 
 /// F_mu from the phases, in the interval of continuous motion.

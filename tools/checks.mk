@@ -31,9 +31,13 @@ another-seed: build $(GEN)/compare_published.md $(GEN)/verdicts.md
 identical: | sanitize-deps $(filter deps,$(MAKECMDGOALS))
 	tools/identical_bytes $(VARIANTS)
 
-#: make format-check  whether clang-format would change a source
+#: make format-check  whether clang-format would change a source, and whether a comment is too wide or stands behind its field
 format-check: | format-deps
-	find src experiments examples tests bench site -path site/node_modules -prune -o -name '*.[ch]pp' -print | xargs clang-format --dry-run --Werror
+	@mkdir -p build
+	find src experiments examples tests bench site -path site/node_modules -prune -o -name '*.[ch]pp' -print >build/.sources
+	xargs clang-format --dry-run --Werror <build/.sources
+	xargs awk '/\/\/\/</ || (length > 100 && /^ *\/\/\/? ? ? ?[^ \/]/) { print FILENAME ":" FNR ": expected a comment above its field, within 100 columns"; \
+	  bad = 1 } END { exit bad }' <build/.sources
 
 #: make reuse       whether each file has a copyright holder and a licence (REUSE)
 reuse: | reuse-deps

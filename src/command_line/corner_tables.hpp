@@ -11,17 +11,24 @@ namespace command_line {
 
 /// Samples by parameter.
 struct CornerSamples {
-  std::vector<std::string> names;            ///< of the parameters
-  std::vector<std::vector<double>> columns;  ///< one a parameter, all of one length
-  std::vector<double> weights;               ///< of that length; empty for equal weights
+  /// Of the parameters.
+  std::vector<std::string> names;
+  /// One a parameter, all of one length.
+  std::vector<std::vector<double>> columns;
+  /// Of that length; empty for equal weights.
+  std::vector<double> weights;
 };
 
 /// Files, or none.
 struct CornerTables {
   OptionalCsv
-      joint;  ///< of each pair: the middle of a cell, its density, and the probability of the cells at least as dense
-  OptionalCsv marginals;  ///< of each parameter: bins with their density
-  OptionalCsv summary;    ///< a row per parameter: moments, quantiles, the range that is drawn and its tics
+      /// Of each pair: the middle of a cell, its density, and the probability of the cells at least
+      /// as dense.
+      joint;
+  /// Of each parameter: bins with their density.
+  OptionalCsv marginals;
+  /// A row per parameter: moments, quantiles, the range that is drawn and its tics.
+  OptionalCsv summary;
 
   /// \throws io::OutputError for a path that cannot be written; an empty one is no file.
   CornerTables(const std::string& joint_path, const std::string& marginals_path,

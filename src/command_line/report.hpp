@@ -91,8 +91,8 @@ struct OptionalCsv : std::optional<io::CsvWriter> {
 /// \throws io::OutputError if it cannot be opened.
 [[nodiscard]] OptionalCsv open_csv(const std::string& path, const std::vector<std::string>& columns);
 
-/// The same problem; each call of the log-likelihood, and of Problem::look between them, is a place where
-/// the program can be interrupted. Both throw io::Interrupted then.
+/// The same problem; each call of the log-likelihood, and of Problem::look between them, is a place
+/// where the program can be interrupted. Both throw io::Interrupted then.
 [[nodiscard]] tmcmc::Problem interruptible(tmcmc::Problem problem);
 
 /// A number with so many significant digits as do not depend on the C library,

@@ -29,8 +29,8 @@ using OptionPlace = std::function<std::string(std::string_view name)>;
 void naming_options(const OptionPlace& place, const std::function<void()>& call);
 
 /// Sets the options of the sampler that were given, in the order of tmcmc::option_table().
-/// \throws errors::InvalidValue naming the place, for values that are incompatible and for an option that
-///         would change nothing.
+/// \throws errors::InvalidValue naming the place, for values that are incompatible and for an
+///         option that would change nothing.
 void set_sampler_options(tmcmc::Options& options, const GivenOption& given, const OptionPlace& place);
 
 }  // namespace command_line

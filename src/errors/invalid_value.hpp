@@ -10,9 +10,9 @@
 
 namespace errors {
 
-/// A value that a library function refuses. The exception carries the parts of the message, so that a caller
-/// who knows more (the file, the line, the column, the command-line option) can say where the value stands
-/// without parsing what().
+/// A value that a library function refuses. The exception carries the parts of the message, so that
+/// a caller who knows more (the file, the line, the column, the command-line option) can say where
+/// the value stands without parsing what().
 class InvalidValue : public std::invalid_argument {
  public:
   /// \param field     name of the field as the library calls it, such as "options.samples"
@@ -24,8 +24,8 @@ class InvalidValue : public std::invalid_argument {
         value_(std::move(value)),
         expected_(std::move(expected)) {}
 
-  /// As the constructor above, for a number, which is written with the fewest digits from which it can be
-  /// read back.
+  /// As the constructor above, for a number, which is written with the fewest digits from which it
+  /// can be read back.
   template <class Number>
   requires std::is_arithmetic_v<Number> InvalidValue(std::string field, Number value, std::string expected)
       : InvalidValue(std::move(field), text_of(value), std::move(expected)) {}

@@ -44,8 +44,8 @@ struct Minima {
   std::vector<double> separators;  // the highest grid points between them
 };
 
-/// Local minima of f, ends included: bracketed on a grid of equidistant or geometrically spaced points, and
-/// refined.
+/// Local minima of f, ends included: bracketed on a grid of equidistant or geometrically spaced
+/// points, and refined.
 Minima local_minima(const std::function<double(double)>& f, const Interval& range, int intervals,
                     bool geometric) {
   std::vector<double> x;
@@ -93,7 +93,7 @@ std::vector<double> with_breaks(std::vector<double> mesh, const ParameterPrior* 
   return mesh;
 }
 
-/// Marginal of the noise level: prior times sigma^-n times the sum over the nodes in x of weight exp(-S / (2 sigma^2)).
+/// Marginal of the noise level: prior times sigma^-n times sum_k weight_k exp(-S_k / (2 sigma^2)).
 TabulatedDensity tabulate_noise(friction::Parameter parameter, std::size_t count, const Interval& range,
                                 const std::vector<double>& weights, const std::vector<double>& misfits,
                                 const ParameterPrior* prior, const ExactPosteriorOptions& options) {
@@ -115,8 +115,8 @@ TabulatedDensity tabulate_noise(friction::Parameter parameter, std::size_t count
           tabulation};
 }
 
-/// The part of the prior interval of F_mu where the motion is continuous, a few roundings below the limit: the
-/// force is divided by the driving force and compared again.
+/// The part of the prior interval of F_mu where the motion is continuous, a few roundings below the
+/// limit: the force is divided by the driving force and compared again.
 Interval feasible(const Interval& prior, const friction::Likelihood& likelihood) {
   const double limit =
       likelihood.limit_friction_force_n() * (1.0 - 4.0 * std::numeric_limits<double>::epsilon());
@@ -219,8 +219,8 @@ ExactPosterior::Pair ExactPosterior::integrate(const friction::Likelihood& likel
   if (noise_prior != nullptr) {
     return {minima.places.size(), location_table, noise_table, std::nullopt, *noise_prior};
   }
-  // Between the nodes of a panel the density changes by a few nats, and the misfit by the same number times
-  // 2 sigma^2.
+  // Between the nodes of a panel the density changes by a few nats, and the misfit by the same
+  // number times 2 sigma^2.
   const auto [lowest, highest] = std::minmax_element(misfits.begin(), misfits.end());
   const NoiseConditional conditional(
       count, noise_range, std::max(0.0, *lowest - 12.0 * noise_range.lower * noise_range.lower), *highest);

@@ -114,10 +114,12 @@ Minimum minimise(OneParameterProblem& block, double start, int max_iterations, b
   return {block.x, summary.final_cost, static_cast<int>(summary.iterations.size()) - 1, summary.message};
 }
 
-/// Relative error of an estimate: residuals below this fraction of the observed values are rounding.
+/// Relative error of an estimate: residuals below this fraction of the observed values are
+/// rounding.
 constexpr double estimate_error = 1e-9;
 
-/// Everything but the observations' own quantities: minimum over the starts, bookkeeping, standard error.
+/// Everything but the observations' own quantities: minimum over the starts, bookkeeping, standard
+/// error.
 BlockFit solve(OneParameterProblem& block, double lower, double upper, double noise,
                const std::vector<double>& observed, const char* name, const LeastSquaresOptions& options) {
   const std::size_t count = observed.size();

@@ -35,8 +35,8 @@ struct LogNoise {
   }
 };
 
-/// The place between mode and end at which f has fallen by nats below its value at the mode, or end; f falls
-/// monotonically.
+/// The place between mode and end at which f has fallen by nats below its value at the mode, or
+/// end; f falls monotonically.
 double fallen_by(double nats, double mode, double end, const std::function<double(double)>& f) {
   const double threshold = f(mode) - nats;
   if (f(end) >= threshold) {
@@ -127,7 +127,8 @@ double NoiseConditional::quantile(double misfit, double p) const {
   const double s = 0.5 * std::max(misfit, misfit_floor(noise_));
   const double low = log(s / (noise_.upper * noise_.upper));
   const double high = log(s / (noise_.lower * noise_.lower));
-  // sigma grows as y = log(t) falls; the smaller of the two tails is used, since it keeps its digits.
+  // sigma grows as y = log(t) falls; the smaller of the two tails is used, since it keeps its
+  // digits.
   const double above_low = table_.log_exceedance(low);
   const double below_high = table_.log_cdf(high);
   double y = 0.0;

@@ -1,5 +1,6 @@
 /// \file
-/// Box-shaped support of independent uniform priors on the four parameters (Table 2 of Lye and Marino 2023).
+/// Box-shaped support of independent uniform priors on the four parameters (Table 2 of Lye and
+/// Marino 2023).
 #pragma once
 
 #include <array>
@@ -10,8 +11,10 @@ namespace estimation {
 
 /// Bounds of one parameter, in its unit.
 struct Interval {
-  double lower = 0.0;  ///< less than upper
-  double upper = 0.0;  ///< both bounds are finite
+  /// Less than upper.
+  double lower = 0.0;
+  /// Both bounds are finite.
+  double upper = 0.0;
 
   /// upper - lower, in the unit of the parameter.
   [[nodiscard]] double width() const { return upper - lower; }
@@ -22,9 +25,9 @@ struct Interval {
 /// One interval per parameter, in the order and the units of friction::Parameter.
 using ParameterBounds = std::array<Interval, friction::parameter_count>;
 
-/// \throws errors::InvalidValue, naming a field such as "friction_force.lower", unless all bounds are
-///         finite, lower is less than upper, the friction force is not negative, and natural frequency and
-///         noise levels are positive.
+/// \throws errors::InvalidValue, naming a field such as "friction_force.lower", unless all bounds
+///         are finite, lower is less than upper, the friction force is not negative, and natural
+///         frequency and noise levels are positive.
 void validate(const ParameterBounds& bounds);
 
 /// Logarithm of the volume of the box, which is minus the log-density of the prior.

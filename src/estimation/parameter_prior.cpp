@@ -34,7 +34,8 @@ ParameterBounds ranges_of(const ParameterPriors& priors) {
 }
 
 NoiseIntegral::NoiseIntegral(std::size_t count, const ParameterPrior& prior) {
-  // In log(sigma) the likelihood is as wide as 1 / sqrt(2 (n - 1)) about its maximum, and falls as sigma^(1-n) above it.
+  // In log(sigma) the likelihood is as wide as 1 / sqrt(2 (n - 1)) about its maximum, and falls as
+  // sigma^(1-n) above it.
   const double n = static_cast<double>(count);
   const double widest = std::min(0.25, std::max(1.0 / std::sqrt(2.0 * n), 8.0 / n));
   using Rule = boost::math::quadrature::gauss<double, 20>;

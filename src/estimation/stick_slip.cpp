@@ -18,8 +18,9 @@ namespace {
 /// Posterior masses below this are not refined.
 constexpr double negligible_mass = 1e-20;
 
-/// Sum of squared phase residuals, where the phase comes from integration in time if an observation's motion
-/// is not continuous; NaN from phi = 1 on, where the mass stays at rest and has no phase.
+/// Sum of squared phase residuals, where the phase comes from integration in time if an
+/// observation's motion is not continuous; NaN from phi = 1 on, where the mass stays at rest and
+/// has no phase.
 double misfit_with_stick_slip(const friction::Observations& observations,
                               const std::vector<friction::ResponseConstants>& constants, double phi) {
   double sum = 0.0;
@@ -34,11 +35,12 @@ double misfit_with_stick_slip(const friction::Observations& observations,
   return sum;
 }
 
-/// Posterior mass of the friction forces beyond the limit, with their first two moments about a centre, as multiples
-/// of the mass below it.
+/// Posterior mass of the friction forces beyond the limit, with their first two moments about a
+/// centre, as multiples of the mass below it.
 struct Beyond {
   double mass = 0.0, first = 0.0, second = 0.0;
-  double error = 0.0;  ///< of the mass
+  /// Of the mass.
+  double error = 0.0;
 };
 
 Beyond integrate_beyond(const friction::Observations& observations, double driving_force_n,
@@ -48,7 +50,8 @@ Beyond integrate_beyond(const friction::Observations& observations, double drivi
   for (const double r : observations.measured_ratio) {
     constants.push_back(friction::response_constants(r, {.driving_force_n = driving_force_n}));
   }
-  // The misfit has a kink at each force at which the motion of one more observation ceases to be continuous.
+  // The misfit has a kink at each force at which the motion of one more observation ceases to be
+  // continuous.
   const double top = std::min(force.upper, driving_force_n);
   std::vector<double> limits;
   for (const auto& c : constants) {

@@ -47,7 +47,8 @@ struct TabulatedDensity::Refinement {
     return value;
   }
 
-  /// Small coefficients that no longer decay are rounding in the log-density; halving would not help.
+  /// Small coefficients that no longer decay are rounding in the log-density; halving would not
+  /// help.
   static bool is_rounding(const Panel& panel) {
     const auto& c = panel.density;
     const double last = std::fabs(c[19]) + std::fabs(c[18]) + std::fabs(c[17]);

@@ -1,6 +1,6 @@
 /// \file
-/// A one-dimensional density that is costly to evaluate, represented by polynomials on panels: distribution
-/// function, quantiles and moments at the cost of evaluating a polynomial.
+/// A one-dimensional density that is costly to evaluate, represented by polynomials on panels:
+/// distribution function, quantiles and moments at the cost of evaluating a polynomial.
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@ class IntegrationError : public std::runtime_error {
 
 /// Accuracy and extent of the table.
 struct TabulationOptions {
-  /// A panel is split while the estimated error of its polynomial, relative to the largest density on the
-  /// panel, exceeds this target. Where rounding in the log-density makes the target unattainable, the panel
-  /// is kept with the error it has.
+  /// A panel is split while the estimated error of its polynomial, relative to the largest density
+  /// on the panel, exceeds this target. Where rounding in the log-density makes the target
+  /// unattainable, the panel is kept with the error it has.
   double target = 1e-12;
   /// Panels on which the density is below e^-cutoff_nats of the largest density are left out.
   double cutoff_nats = 100.0;
@@ -35,49 +35,62 @@ struct TabulationOptions {
 /// Normalised density on an interval, given by its logarithm up to a constant.
 ///
 /// On every panel the density is interpolated at the 20 nodes of the Gauss-Legendre rule
-/// (boost::math::quadrature::gauss) and integrated as a Legendre series. Panels are halved until the
-/// interpolant agrees with the density at the ends of the panel and its last coefficients vanish, both to
-/// TabulationOptions::target, so that tail probabilities have a small relative error too. Masses are stored
-/// as logarithms. Const members may be called concurrently.
+/// (boost::math::quadrature::gauss) and integrated as a Legendre series. Panels are halved until
+/// the interpolant agrees with the density at the ends of the panel and its last coefficients
+/// vanish, both to TabulationOptions::target, so that tail probabilities have a small relative
+/// error too. Masses are stored as logarithms. Const members may be called concurrently.
 class TabulatedDensity {
  public:
   /// \param name  name of the variable, for messages
   /// \param log_density  natural logarithm; -inf is allowed, NaN is not
-  /// \param mesh  ascending breakpoints, at least two; the mesh must resolve narrow modes (graded_mesh)
-  /// \throws IntegrationError if the density is 0 at every breakpoint, is NaN or +inf somewhere, or needs
-  ///         more than max_panels panels.
+  /// \param mesh  ascending breakpoints, at least two; the mesh must resolve narrow modes
+  ///        (graded_mesh)
+  /// \throws IntegrationError if the density is 0 at every breakpoint, is NaN or +inf somewhere, or
+  ///         needs more than max_panels panels.
   TabulatedDensity(std::string name, const std::function<double(double)>& log_density,
                    const std::vector<double>& mesh, const TabulationOptions& options = {});
 
-  [[nodiscard]] double density(double x) const;     ///< in 1/[x]; 0 outside the support
-  [[nodiscard]] double cdf(double x) const;         ///< P(X <= x)
-  [[nodiscard]] double exceedance(double x) const;  ///< P(X > x), not by subtraction from 1
+  /// In 1/[x]; 0 outside the support.
+  [[nodiscard]] double density(double x) const;
+  /// P(X <= x).
+  [[nodiscard]] double cdf(double x) const;
+  /// P(X > x), not by subtraction from 1.
+  [[nodiscard]] double exceedance(double x) const;
   /// The x with cdf(x) = p.
   /// \throws errors::InvalidValue unless 0 <= p <= 1.
   [[nodiscard]] double quantile(double p) const;
-  [[nodiscard]] double mean() const { return mean_; }  ///< mean of the tabulated density
-  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }  ///< of that density
+  /// Mean of the tabulated density.
+  [[nodiscard]] double mean() const { return mean_; }
+  /// Of that density.
+  [[nodiscard]] double standard_deviation() const { return standard_deviation_; }
 
   /// Logarithm of cdf. This function and the three below work for log-probabilities far below -700.
   [[nodiscard]] double log_cdf(double x) const;
-  [[nodiscard]] double log_exceedance(double x) const;                  ///< log P(X > x)
-  [[nodiscard]] double quantile_of_log_cdf(double log_p) const;         ///< log_p <= 0
-  [[nodiscard]] double quantile_of_log_exceedance(double log_q) const;  ///< log_q <= 0
+  /// log P(X > x).
+  [[nodiscard]] double log_exceedance(double x) const;
+  /// log_p <= 0.
+  [[nodiscard]] double quantile_of_log_cdf(double log_p) const;
+  /// log_q <= 0.
+  [[nodiscard]] double quantile_of_log_exceedance(double log_q) const;
 
   /// Left end of the support, without the part below e^-cutoff_nats.
   [[nodiscard]] double lower() const { return panels_.front().left; }
-  [[nodiscard]] double upper() const { return panels_.back().right; }  ///< right end of the last panel
+  /// Right end of the last panel.
+  [[nodiscard]] double upper() const { return panels_.back().right; }
 
   /// Logarithm of the integral of the density as given, before normalisation.
   [[nodiscard]] double log_integral() const { return peak_ + log_total_; }
-  /// Estimated error of that integral and of any probability: the sum over the panels of interpolation error
-  /// times width, as a fraction of the integral.
+  /// Estimated error of that integral and of any probability: the sum over the panels of
+  /// interpolation error times width, as a fraction of the integral.
   [[nodiscard]] double relative_error() const { return relative_error_; }
-  [[nodiscard]] std::size_t panel_count() const { return panels_.size(); }  ///< panels kept
+  /// Panels kept.
+  [[nodiscard]] std::size_t panel_count() const { return panels_.size(); }
 
-  /// Nodes and weights of the composite Gauss rule on the panels, for other integrals over the same variable.
+  /// Nodes and weights of the composite Gauss rule on the panels, for other integrals over the same
+  /// variable.
   [[nodiscard]] const std::vector<double>& nodes() const { return nodes_; }
-  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }  ///< one per node, in [x]
+  /// One per node, in [x].
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
 
  private:
   static constexpr std::size_t order = LegendreRule::order;
@@ -105,10 +118,13 @@ class TabulatedDensity {
   [[nodiscard]] std::size_t first_panel_ending_after(double x) const;
 
   std::string name_;
-  double peak_ = 0.0;  // largest log-density at a breakpoint
+  // largest log-density at a breakpoint
+  double peak_ = 0.0;
   std::vector<Panel> panels_;
-  std::vector<double> log_below_;  // mass left of each panel, relative to peak_; one entry more than panels
-  std::vector<double> log_above_;  // mass right of each panel
+  // mass left of each panel, relative to peak_; one entry more than panels
+  std::vector<double> log_below_;
+  // mass right of each panel
+  std::vector<double> log_above_;
   std::vector<double> nodes_;
   std::vector<double> weights_;
   double log_total_ = 0.0;

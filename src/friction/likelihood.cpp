@@ -14,10 +14,10 @@ namespace {
 constexpr Eigen::Index chunk = 64;
 struct alignas(64) Lanes : std::array<double, chunk> {};
 
-/// Adds the squared phase residuals of one observation. Force ratios beyond the limit give values that the
-/// caller does not use; the square root is kept real for them. Two short loops are used instead of a long
-/// one: the processor looks ahead over more points, which hides the latency of root, division and
-/// polynomial.
+/// Adds the squared phase residuals of one observation. Force ratios beyond the limit give values
+/// that the caller does not use; the square root is kept real for them. Two short loops are used
+/// instead of a long one: the processor looks ahead over more points, which hides the latency of
+/// root, division and polynomial.
 PORTABLE_MATH_MULTIVERSION
 void add_squared_residuals(const ResponseConstants& c, double observed_deg, const Lanes& force_ratio,
                            Lanes& sum) {

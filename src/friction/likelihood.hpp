@@ -13,35 +13,41 @@ namespace friction {
 
 /// Column of each parameter in a matrix of points.
 enum Parameter : int {
-  friction_force,         ///< F_mu, N
-  natural_frequency,      ///< omega_n, Hz
-  phase_noise,            ///< sigma_phase, deg
-  frequency_ratio_noise,  ///< sigma_r, dimensionless
+  /// F_mu, N.
+  friction_force,
+  /// omega_n, Hz.
+  natural_frequency,
+  /// sigma_phase, deg.
+  phase_noise,
+  /// sigma_r, dimensionless.
+  frequency_ratio_noise,
   parameter_count
 };
 
-/// Batch log-likelihood of Eq. 24. It factorises into one part that depends on (F_mu, sigma_phase) and one
-/// that depends on (omega_n, sigma_r); sums over the observations that do not depend on a parameter are
-/// computed once, at construction. The residual of a phase is the residual of an angle (angle_residual_deg).
-/// It is given a Normal density, which approximates the density of an angle as long as sigma_phase is small
-/// against a half turn.
-/// Const members may be called concurrently.
+/// Batch log-likelihood of Eq. 24. It factorises into one part that depends on (F_mu, sigma_phase)
+/// and one that depends on (omega_n, sigma_r); sums over the observations that do not depend on a
+/// parameter are computed once, at construction. The residual of a phase is the residual of an
+/// angle (angle_residual_deg). It is given a Normal density, which approximates the density of an
+/// angle as long as sigma_phase is small against a half turn. Const members may be called
+/// concurrently.
 class Likelihood {
  public:
-  /// \param infeasible_log_likelihood  value where the motion is not continuous for some observation: minus
-  ///        infinity, or the penalty -1e10 of the published scripts.
+  /// \param infeasible_log_likelihood  value where the motion is not continuous for some
+  ///        observation: minus infinity, or the penalty -1e10 of the published scripts.
   /// \throws errors::InvalidValue for invalid observations or physics.
   Likelihood(const Observations& observations, const Physics& physics,
              double infeasible_log_likelihood = -std::numeric_limits<double>::infinity());
 
   /// Log-likelihood of each point, in natural logarithms (normalised densities).
-  /// \param points  n x 4, one column per parameter in the order of Parameter, noise levels and frequency positive
+  /// \param points  n x 4, one column per parameter in the order of Parameter, noise levels and
+  ///        frequency positive
   /// \param log_likelihood  n values, overwritten
   /// \throws errors::InvalidValue if the shapes do not match.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 
-  /// Sum of squared phase residuals (angle_residual_deg), deg^2; NaN where the motion is not continuous.
+  /// Sum of squared phase residuals (angle_residual_deg), deg^2; NaN where the motion is not
+  /// continuous.
   [[nodiscard]] double phase_misfit(double friction_force_n) const;
 
   /// Sum of squared residuals of the nominal frequency ratio.

@@ -74,7 +74,8 @@ Motion::State Motion::stepped(double sign, double length) {
   return end;
 }
 
-/// Length of the step to the first zero of velocity, if one lies within the step of the given length.
+/// Length of the step to the first zero of velocity, if one lies within the step of the given
+/// length.
 std::optional<double> Motion::length_to_stop(double sign, double length, const State& end) {
   double beyond = length;
   if (sign * end[1] > 0.0) {
@@ -100,7 +101,8 @@ void Motion::slide(double sign) {
     double tau_end = steps > 1.0 ? tau_ + length : pi;
     State end = stepped(sign, length);
     if (state_[1] == 0.0) {
-      // A slide shorter than the step has no zero of velocity to bracket until the start is resolved.
+      // A slide shorter than the step has no zero of velocity to bracket until the start is
+      // resolved.
       while (sign * end[1] <= 0.0 && length > tolerance_) {
         length *= 0.5;
         tau_end = tau_ + length;
@@ -125,8 +127,8 @@ void Motion::slide(double sign) {
   rotate_derivative((tau_ - tau_start) / r_);
 }
 
-/// At zero velocity: sticks as long as friction can hold the mass, and returns the direction in which it
-/// then slides.
+/// At zero velocity: sticks as long as friction can hold the mass, and returns the direction in
+/// which it then slides.
 /// \param arrived  direction in which it came
 double Motion::set_off(std::optional<double> arrived) {
   const double pull = force(tau_, state_, 0.0);

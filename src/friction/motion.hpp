@@ -12,12 +12,12 @@
 
 namespace friction {
 
-/// Alternates slides, which end at zeros of the velocity, and phases of sticking, which end where friction
-/// gives way.
+/// Alternates slides, which end at zeros of the velocity, and phases of sticking, which end where
+/// friction gives way.
 class Motion {
  public:
-  /// Starts from (x, velocity) at tau = 0; the arguments are those of integrate_half_period, already
-  /// checked.
+  /// Starts from (x, velocity) at tau = 0; the arguments are those of integrate_half_period,
+  /// already checked.
   /// \param trace  receives the points of the motion; null: no trace
   Motion(double r, double phi, double x, double velocity, const TimeIntegrationOptions& options,
          std::vector<MotionPoint>* trace = nullptr);

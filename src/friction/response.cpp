@@ -20,8 +20,8 @@ double s_quotient(double r, double u, double tau) {
   return (r * fast.sin + u * r * r * (slow.cos - fast.cos)) / slow.sin;
 }
 
-/// Supremum on (0, pi): the limit 1 at tau -> 0, or a larger maximum between, bracketed on a grid that
-/// resolves the oscillation with period 2 pi r and polished.
+/// Supremum on (0, pi): the limit 1 at tau -> 0, or a larger maximum between, bracketed on a grid
+/// that resolves the oscillation with period 2 pi r and polished.
 double s_supremum(double r, double u) {
   const int points = 32 * static_cast<int>(std::clamp(std::ceil(1.0 / r), 8.0, 1e5));
   const double step = pi / points;

@@ -1,15 +1,15 @@
 /// \file
-/// Steady response of a base-excited mass with Coulomb friction against a fixed wall (Den Hartog 1930; Lye
-/// and Marino 2023, Eqs. 10-21), for continuous motion.
+/// Steady response of a base-excited mass with Coulomb friction against a fixed wall (Den Hartog
+/// 1930; Lye and Marino 2023, Eqs. 10-21), for continuous motion.
 ///
-/// For a given frequency ratio r everything except the force ratio phi is constant, and the angle between
-/// base motion and response is the argument of a complex number
+/// For a given frequency ratio r everything except the force ratio phi is constant, and the angle
+/// between base motion and response is the argument of a complex number
 ///
 ///     (a0 + a1 phi x0 + a2 phi^2) + i (b1 phi x0 + b2 phi^2),   x0 = sqrt(V^2 - (phi U)^2),
 ///
-/// with V = 1/(1 - r^2). For the exact first Fourier coefficient it reduces to (V + 4/pi U phi^2) + i (4/pi)
-/// phi x0. The published scripts use one bin of a discrete Fourier transform instead, which gives the same
-/// form with other constants; response_constants() computes both.
+/// with V = 1/(1 - r^2). For the exact first Fourier coefficient it reduces to (V + 4/pi U phi^2) +
+/// i (4/pi) phi x0. The published scripts use one bin of a discrete Fourier transform instead,
+/// which gives the same form with other constants; response_constants() computes both.
 #pragma once
 
 #include <array>
@@ -25,8 +25,10 @@ namespace friction {
 
 /// Rule by which S in the limit of continuous motion (Eq. 18) is computed.
 enum class LimitRule {
-  grid,     ///< maximum over tau = pi/15 ... 14 pi/15, as in the published scripts
-  supremum  ///< supremum over the half-period (0, pi)
+  /// Maximum over tau = pi/15 ... 14 pi/15, as in the published scripts.
+  grid,
+  /// Supremum over the half-period (0, pi).
+  supremum
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<LimitRule>) {
   return {"grid", "supremum"};
@@ -34,8 +36,10 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Li
 
 /// Rule by which the phase angle (Eq. 21) is computed from the two signals.
 enum class PhaseRule {
-  discrete_bin,  ///< bin 30 of a 901-point transform of 30 periods, end point repeated (published scripts)
-  fourier_coefficient  ///< first Fourier coefficient, in closed form
+  /// Bin 30 of a 901-point transform of 30 periods, end point repeated (published scripts).
+  discrete_bin,
+  /// First Fourier coefficient, in closed form.
+  fourier_coefficient
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<PhaseRule>) {
   return {"discrete-bin", "fourier-coefficient"};
@@ -43,23 +47,35 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Ph
 
 /// The excitation, and the reading of the equations that can be interpreted in more than one way.
 struct Physics {
-  double driving_force_n = 2.5;                      ///< k Y_b, N (Section 3 of the paper)
-  LimitRule limit = LimitRule::supremum;             ///< Eq. 18
-  PhaseRule phase = PhaseRule::fourier_coefficient;  ///< Eq. 21
+  /// k Y_b, N (Section 3 of the paper).
+  double driving_force_n = 2.5;
+  /// Eq. 18.
+  LimitRule limit = LimitRule::supremum;
+  /// Eq. 21.
+  PhaseRule phase = PhaseRule::fourier_coefficient;
 };
 
-/// All quantities on which the phase angle at one frequency ratio depends, apart from the force ratio.
-/// Dimensionless.
+/// All quantities on which the phase angle at one frequency ratio depends, apart from the force
+/// ratio. Dimensionless.
 struct ResponseConstants {
-  double frequency_ratio;    ///< r = omega_b / omega_n
-  double u;                  ///< U of Eq. 16
-  double v;                  ///< 1 / (1 - r^2)
-  double limit_force_ratio;  ///< phi_lim of Eq. 18: continuous motion for phi <= phi_lim
-  double a0;                 ///< real part: constant
-  double a1;                 ///< real part: factor of phi x0
-  double a2;                 ///< real part: factor of phi^2
-  double b1;                 ///< imaginary part: factor of phi x0
-  double b2;                 ///< imaginary part: factor of phi^2
+  /// r = omega_b / omega_n.
+  double frequency_ratio;
+  /// U of Eq. 16.
+  double u;
+  /// 1 / (1 - r^2).
+  double v;
+  /// phi_lim of Eq. 18: continuous motion for phi <= phi_lim.
+  double limit_force_ratio;
+  /// Real part: constant.
+  double a0;
+  /// Real part: factor of phi x0.
+  double a1;
+  /// Real part: factor of phi^2.
+  double a2;
+  /// Imaginary part: factor of phi x0.
+  double b1;
+  /// Imaginary part: factor of phi^2.
+  double b2;
 };
 
 /// True where U or V is infinite, up to rounding: r = 1, 1/3, 1/5, ...
@@ -68,8 +84,8 @@ struct ResponseConstants {
 /// U of Eq. 16, written as tan(pi / (2 r)) / r.
 [[nodiscard]] double response_function_u(double frequency_ratio);
 
-/// S of Eq. 18: the largest value over the half-period of (r sin(tau/r) + U r^2 (cos tau - cos(tau/r))) /
-/// sin tau, which tends to 1 as tau -> 0.
+/// S of Eq. 18: the largest value over the half-period of (r sin(tau/r) + U r^2 (cos tau -
+/// cos(tau/r))) / sin tau, which tends to 1 as tau -> 0.
 [[nodiscard]] double response_function_s(double frequency_ratio, LimitRule rule);
 
 /// Constants for one frequency ratio.
@@ -96,8 +112,8 @@ template <class T>
 
 }  // namespace detail
 
-/// Phase angle in degrees, in [0, 180] (Eq. 21), of continuous motion; NaN where phi > phi_lim or phi < 0.
-/// T is double or a type that carries derivatives (ceres::Jet).
+/// Phase angle in degrees, in [0, 180] (Eq. 21), of continuous motion; NaN where phi > phi_lim or
+/// phi < 0. T is double or a type that carries derivatives (ceres::Jet).
 template <class T>
 [[nodiscard]] T phase_deg(const ResponseConstants& c, const T& force_ratio) {
   if (!(force_ratio >= 0.0) || force_ratio > c.limit_force_ratio) {

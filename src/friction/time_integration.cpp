@@ -126,8 +126,9 @@ SteadyResponse integrate_steady_response(double frequency_ratio, double force_ra
   if (start.motion.path == 0.0) {
     return {SteadyState::at_rest, nan, 0.0, false, 0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5};
   }
-  // Near resonance the residual is flat between rest and a distant solution, so the first steps need not
-  // reduce it. If they do not arrive, the search starts again and takes only those that do.
+  // Near resonance the residual is flat between rest and a distant solution, so the first steps
+  // need not reduce it. If they do not arrive, the search starts again and takes only those that
+  // do.
   constexpr int first_evaluations = 20;
   const int most = 2 * std::min(options.maximum_periods, 1000000000);
   bool descending = false;

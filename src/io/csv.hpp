@@ -31,16 +31,17 @@ namespace io {
 ///
 ///     data/x.csv:4: column 'phase_deg': value 'abc': expected a finite number
 ///
-/// that begins with file and line and, where a cell is at fault, its column: by name, or by number in the
-/// header and beyond the header's last column. For files that cannot be read or exceed 4 GiB the message
-/// names no line.
+/// that begins with file and line and, where a cell is at fault, its column: by name, or by number
+/// in the header and beyond the header's last column. For files that cannot be read or exceed 4 GiB
+/// the message names no line.
 class CsvTable {
  public:
   /// Reads the whole file.
-  /// \throws InputError if the file cannot be read, has no header or no row; if a column name is empty
-  ///         (except that of row numbers or names) or repeated; if a row does not have as many cells as the
-  ///         header; if a quote is not closed or stands inside an unquoted cell; if the file is UTF-16,
-  ///         holds NUL bytes or a CR without LF, is separated by semicolons or tabs, or exceeds 4 GiB.
+  /// \throws InputError if the file cannot be read, has no header or no row; if a column name is
+  ///         empty (except that of row numbers or names) or repeated; if a row does not have as
+  ///         many cells as the header; if a quote is not closed or stands inside an unquoted cell;
+  ///         if the file is UTF-16, holds NUL bytes or a CR without LF, is separated by semicolons
+  ///         or tabs, or exceeds 4 GiB.
   static CsvTable read(const std::filesystem::path& path);
 
   /// The path as given to read().
@@ -64,9 +65,10 @@ class CsvTable {
   /// \throws InputError naming the first column that is missing.
   void require_columns(std::initializer_list<std::string_view> columns) const;
 
-  /// A whole column of finite numbers, one per row (the functions below also return one value per row).
-  /// Numbers are decimal, correctly rounded, and may carry a sign; a magnitude that a double cannot hold
-  /// (1e400, 1e-400), decimal commas, thousands separators and hexadecimal digits are refused.
+  /// A whole column of finite numbers, one per row (the functions below also return one value per
+  /// row). Numbers are decimal, correctly rounded, and may carry a sign; a magnitude that a double
+  /// cannot hold (1e400, 1e-400), decimal commas, thousands separators and hexadecimal digits are
+  /// refused.
   /// \throws InputError if there is no such column or a cell does not hold such a number.
   std::vector<double> numbers(std::string_view column) const;
   /// As numbers(), with nan, inf and -inf allowed in any case.
@@ -100,18 +102,23 @@ class CsvTable {
 
   std::filesystem::path path_;
   std::vector<std::string> names_;
-  std::map<std::string, std::size_t, std::less<>> places_;  // column number of each name
-  std::size_t width_ = 0;                                   // cells of a line, including the row name
-  bool has_row_names_ = false;                              // in a first column without a header name
+  // column number of each name
+  std::map<std::string, std::size_t, std::less<>> places_;
+  // cells of a line, including the row name
+  std::size_t width_ = 0;
+  // in a first column without a header name
+  bool has_row_names_ = false;
   std::size_t header_line_ = 0;
-  std::vector<std::string> cells_;  // row by row
+  // row by row
+  std::vector<std::string> cells_;
   std::vector<std::size_t> lines_;
 };
 
 /// Shortest decimal text that reads back as the same double; "nan" (without sign), "inf", "-inf".
 std::string format_number(double value);
 
-/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before commit().
+/// Writes a CSV file that CsvTable reads back exactly. Nothing appears under the path before
+/// commit().
 class CsvWriter {
  public:
   /// Opens the output ("-" is standard output) and writes the header.
@@ -119,12 +126,11 @@ class CsvWriter {
   ///         is empty or repeated.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
-  /// Writes one row: each argument is a number, a text, or a range of doubles or texts that fills several
-  /// cells. Doubles are written by format_number. Texts are quoted where necessary; a text with a line break
-  /// in it is valid RFC 4180, but CsvTable refuses it.
-  /// \throws OutputError; std::logic_error if the number of cells differs from the number of columns: such a
-  ///         row leaves no trace.
-  ///         a row leaves no trace.
+  /// Writes one row: each argument is a number, a text, or a range of doubles or texts that fills
+  /// several cells. Doubles are written by format_number. Texts are quoted where necessary; a text
+  /// with a line break in it is valid RFC 4180, but CsvTable refuses it.
+  /// \throws OutputError; std::logic_error if the number of cells differs from the number of
+  ///         columns: such a row leaves no trace. a row leaves no trace.
   template <class... Cells>
   void row(const Cells&... cells) {
     (append(cells), ...);

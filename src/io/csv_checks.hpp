@@ -10,8 +10,8 @@
 
 namespace io {
 
-/// The values of a column, each of which must satisfy the rule; `expected` completes the sentence "expected
-/// ...".
+/// The values of a column, each of which must satisfy the rule; `expected` completes the sentence
+/// "expected ...".
 /// \throws InputError naming file, line, column and value.
 template <class Value, class Rule>
 [[nodiscard]] std::vector<Value> checked(const CsvTable& table, std::string_view column,
@@ -24,7 +24,8 @@ template <class Value, class Rule>
   return values;
 }
 
-/// Refuses the first row whose key occurs in an earlier row; the message names its cell of the column.
+/// Refuses the first row whose key occurs in an earlier row; the message names its cell of the
+/// column.
 /// \throws as checked.
 template <class Key>
 void require_once(const CsvTable& table, const std::vector<Key>& keys, std::string_view column,

@@ -27,9 +27,9 @@ struct InputFault {
 /// number".
 std::string describe(const InputFault& fault);
 
-/// An error that the user can correct: a missing file, a bad value, an unknown option. what() is one line
-/// that names the file, the place, the value and what was expected. A program that ends with this error
-/// exits with status 2.
+/// An error that the user can correct: a missing file, a bad value, an unknown option. what() is
+/// one line that names the file, the place, the value and what was expected. A program that ends
+/// with this error exits with status 2.
 class InputError : public std::runtime_error {
  public:
   /// An error that belongs to no place in a file.
@@ -43,15 +43,16 @@ class InputError : public std::runtime_error {
   InputFault fault_;
 };
 
-/// An output that cannot be written. what() is one line with the path, the system's reason and what was
-/// expected. A program that ends with this error exits with status 2.
+/// An output that cannot be written. what() is one line with the path, the system's reason and what
+/// was expected. A program that ends with this error exits with status 2.
 class OutputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The text made safe for a one-line message: control characters and bytes that are not UTF-8 become escapes
-/// (\n, \t, \r, \x1B), and everything after the first `max_bytes` bytes becomes "...".
+/// The text made safe for a one-line message: control characters and bytes that are not UTF-8
+/// become escapes (\n, \t, \r, \x1B), and everything after the first `max_bytes` bytes becomes
+/// "...".
 std::string printable(std::string_view text, std::size_t max_bytes = 40);
 
 /// The whole path, made safe in the same way as printable() does.

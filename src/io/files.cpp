@@ -127,8 +127,8 @@ void OutputFile::open_partial(std::optional<unsigned> kept) {
   }
 }
 
-/// Gives the temporary file a name beside the target, or creates the file with this name if there is none
-/// yet.
+/// Gives the temporary file a name beside the target, or creates the file with this name if there
+/// is none yet.
 void OutputFile::name_partial(unsigned mode) {
   constexpr int most_names = 100;
   constexpr std::size_t longest_stem = 200;  // leaves room for the process id below NAME_MAX

@@ -10,11 +10,11 @@
 
 namespace io {
 
-/// A file that appears complete or not at all. The data go to a temporary file in the target's directory,
-/// which has no name until prepare() names it `.name.csv.<process id>.part` (where the file system does not
-/// support unnamed files it has that name from the start); commit() renames it over the target. Without
-/// commit() no trace of the data is left, and whatever stood under the path before is untouched. Not
-/// thread-safe.
+/// A file that appears complete or not at all. The data go to a temporary file in the target's
+/// directory, which has no name until prepare() names it `.name.csv.<process id>.part` (where the
+/// file system does not support unnamed files it has that name from the start); commit() renames it
+/// over the target. Without commit() no trace of the data is left, and whatever stood under the
+/// path before is untouched. Not thread-safe.
 ///
 /// What the path may be:
 ///  - "-" or /dev/stdout, /dev/stderr, /dev/fd/N: that open descriptor, in place;
@@ -48,8 +48,8 @@ class OutputFile {
   /// The path as given.
   const std::filesystem::path& path() const noexcept { return path_; }
 
-  /// Whether the path is a descriptor, device or pipe, which is written in place, so that no file can be put
-  /// beside it.
+  /// Whether the path is a descriptor, device or pipe, which is written in place, so that no file
+  /// can be put beside it.
   bool in_place() const noexcept { return in_place_; }
 
  private:
@@ -60,8 +60,10 @@ class OutputFile {
   [[noreturn]] void fail(std::string_view action, int error, std::string_view expected) const;
 
   std::filesystem::path path_;
-  std::filesystem::path target_;   // absolute, links followed
-  std::filesystem::path partial_;  // empty as long as the temporary file has no name
+  // absolute, links followed
+  std::filesystem::path target_;
+  // empty as long as the temporary file has no name
+  std::filesystem::path partial_;
   Descriptor file_;
   bool is_prepared_ = false;
   bool is_stdout_ = false;
@@ -69,8 +71,9 @@ class OutputFile {
   std::string buffer_;
 };
 
-/// Puts several outputs in place, skipping those that are absent: all are prepared before the first is
-/// renamed, so that if one lacks space every target stays as it was. For OutputFile and CsvWriter.
+/// Puts several outputs in place, skipping those that are absent: all are prepared before the first
+/// is renamed, so that if one lacks space every target stays as it was. For OutputFile and
+/// CsvWriter.
 /// \throws OutputError
 template <class... Outputs>
 void commit_all(std::optional<Outputs>&... outputs) {
@@ -78,8 +81,9 @@ void commit_all(std::optional<Outputs>&... outputs) {
   ((outputs ? outputs->commit() : void()), ...);
 }
 
-/// Whether two paths lead to the same place for an output: the same descriptor or the same file, also
-/// through links and if the file does not exist yet. Devices and pipes may be written to twice.
+/// Whether two paths lead to the same place for an output: the same descriptor or the same file,
+/// also through links and if the file does not exist yet. Devices and pipes may be written to
+/// twice.
 [[nodiscard]] bool is_same_output(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace io

@@ -65,8 +65,8 @@ void Journal::read_lines() {
     has_key = true;
     begin = end + 1;
   }
-  // A first line that was cut off belongs to this run if it is a beginning of this run's key line; after a
-  // power failure it may be zeros.
+  // A first line that was cut off belongs to this run if it is a beginning of this run's key line;
+  // after a power failure it may be zeros.
   if (!has_key && !line(key_).starts_with(text) && text.find_first_not_of('\0') != std::string::npos)
     fail_as_foreign(path_);
   cut_to(begin);

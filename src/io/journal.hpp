@@ -10,20 +10,20 @@
 
 namespace io {
 
-/// Rows of a long computation, stored as they are computed, so that a run that was killed resumes where it
-/// stopped.
+/// Rows of a long computation, stored as they are computed, so that a run that was killed resumes
+/// where it stopped.
 ///
-/// The journal of an output PATH is the file PATH.journal. Its first line is the key, and each further line
-/// is a row; at the end of a line, after a tab, stands its CRC-32, seeded with the CRC-32 of the key. Only
-/// one process may have the journal open.
+/// The journal of an output PATH is the file PATH.journal. Its first line is the key, and each
+/// further line is a row; at the end of a line, after a tab, stands its CRC-32, seeded with the
+/// CRC-32 of the key. Only one process may have the journal open.
 class Journal {
  public:
-  /// Opens the journal or starts one. The first row that is cut off or damaged is dropped, with all rows
-  /// after it.
+  /// Opens the journal or starts one. The first row that is cut off or damaged is dropped, with all
+  /// rows after it.
   /// \param key  one line that names everything the rows depend on
-  /// \throws InputError if the existing journal has another key or a damaged one (a key that was cut off
-  ///         counts as none), is not a regular file, or is open in another process; OutputError if it cannot
-  ///         be opened or written.
+  /// \throws InputError if the existing journal has another key or a damaged one (a key that was
+  ///         cut off counts as none), is not a regular file, or is open in another process;
+  ///         OutputError if it cannot be opened or written.
   Journal(const std::filesystem::path& output, const std::string& key);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -34,11 +34,12 @@ class Journal {
   /// Complete rows, without line ends.
   [[nodiscard]] const std::vector<std::string>& rows() const { return rows_; }
 
-  /// Whether whole lines were dropped as damaged when the journal was opened. A last line that was cut off
-  /// does not count as damage.
+  /// Whether whole lines were dropped as damaged when the journal was opened. A last line that was
+  /// cut off does not count as damage.
   [[nodiscard]] bool was_damaged() const { return was_damaged_; }
 
-  /// Appends rows, none of which contains a line end, in one write and waits until they are on the disk.
+  /// Appends rows, none of which contains a line end, in one write and waits until they are on the
+  /// disk.
   /// \throws OutputError
   void append(const std::vector<std::string>& rows);
 

@@ -4,8 +4,8 @@
 
 namespace io {
 
-/// A directory for temporary files, `$TMPDIR/NAME-XXXXXX`, that is removed with all its contents by the
-/// destructor. It remains if the process is ended by kill -9.
+/// A directory for temporary files, `$TMPDIR/NAME-XXXXXX`, that is removed with all its contents by
+/// the destructor. It remains if the process is ended by kill -9.
 class ScratchDirectory {
  public:
   /// \param name  without a slash

@@ -41,8 +41,8 @@ std::size_t after_string(const std::string& text, std::size_t at) {
   return std::min(at + 1, text.size());
 }
 
-/// Parses the JSON of a text. Python writes infinities and NaN, which are not valid JSON, as words (its json
-/// module writes -Infinity, its lists -inf); these are converted to texts.
+/// Parses the JSON of a text. Python writes infinities and NaN, which are not valid JSON, as words
+/// (its json module writes -Infinity, its lists -inf); these are converted to texts.
 json parse(const std::string& text) {
   json value = json::parse(text, nullptr, false);
   if (!value.is_discarded()) {
@@ -72,8 +72,8 @@ std::string text_of(const json& object, const char* key) {
                                : io::printable(found->dump(), longest_body);
 }
 
-/// The text of an answer with another status: cpp-httplib's servers put the message of an exception into a
-/// header.
+/// The text of an answer with another status: cpp-httplib's servers put the message of an exception
+/// into a header.
 std::string words_of(const httplib::Response& answer) {
   const std::string words =
       answer.has_header("EXCEPTION_WHAT") ? answer.get_header_value("EXCEPTION_WHAT") : answer.body;
@@ -94,7 +94,8 @@ void wait_interruptibly(Seconds time) {
 
 }  // namespace
 
-/// The HTTP client, with a thread that aborts its waiting at an interrupt and closes an idle connection.
+/// The HTTP client, with a thread that aborts its waiting at an interrupt and closes an idle
+/// connection.
 struct JsonConnection::Http {
   httplib::Client client;
   std::string path;
@@ -197,7 +198,8 @@ json JsonConnection::post(const std::string& path, const json& body) {
   const std::string text = body.dump();
   const auto send_body = [&](std::size_t, std::size_t, httplib::DataSink& sink) {
     sink.write(text.data(), text.size());
-    // the header of the answer is acknowledged at once: servers without TCP_NODELAY send its body only then
+    // the header of the answer is acknowledged at once: servers without TCP_NODELAY send its body
+    // only then
     const int yes = 1;
     setsockopt(http_->client.socket(), IPPROTO_TCP, TCP_QUICKACK, &yes, sizeof yes);
     return true;

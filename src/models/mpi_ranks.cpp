@@ -27,7 +27,8 @@ constexpr Header no_more = {-1, 0, 0};
 
 using Text = std::array<char, 4096>;  // of an exception; what is longer is cut off
 
-// Errors of MPI itself end the program: this is MPI's default, and the run could not continue anyway.
+// Errors of MPI itself end the program: this is MPI's default, and the run could not continue
+// anyway.
 
 /// Waits without occupying a processor, as MPI's own waiting does.
 void wait_for(MPI_Request request) {

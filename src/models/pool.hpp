@@ -9,11 +9,13 @@
 
 namespace models {
 
-/// The objects that no call uses at present; there are as many objects as there were concurrent calls.
+/// The objects that no call uses at present; there are as many objects as there were concurrent
+/// calls.
 template <class Thing>
 class Pool {
  public:
-  /// Takes an object for this call alone; null if all are in use, and the caller then makes another.
+  /// Takes an object for this call alone; null if all are in use, and the caller then makes
+  /// another.
   [[nodiscard]] std::unique_ptr<Thing> take() {
     const std::lock_guard lock(mutex_);
     if (idle_.empty()) {

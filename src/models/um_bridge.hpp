@@ -1,7 +1,7 @@
 /// \file
-/// A log-likelihood behind UM-Bridge (Seelinger et al. 2023, J. Open Source Software 8(83), 4748): a model
-/// that answers HTTP requests of version 1.0 of the protocol, one point per request, on this machine or
-/// behind the load balancer of a cluster.
+/// A log-likelihood behind UM-Bridge (Seelinger et al. 2023, J. Open Source Software 8(83), 4748):
+/// a model that answers HTTP requests of version 1.0 of the protocol, one point per request, on
+/// this machine or behind the load balancer of a cluster.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +15,17 @@ namespace models {
 
 /// Which model is used, and how many outputs it has.
 struct UmBridgeOptions {
-  ServerOptions server;  ///< the server; retries and time-out of one evaluation
-  std::string model;     ///< name of the model, as listed by /Info
+  /// The server; retries and time-out of one evaluation.
+  ServerOptions server;
+  /// Name of the model, as listed by /Info.
+  std::string model;
   std::vector<std::string>
-      parameter_names;        ///< d names; the coordinates in this order fill the model's input vectors
-  std::string config = "{}";  ///< JSON object that is passed to the model
-  std::size_t outputs = 0;    ///< total length of its output vectors; 0: its one output is the log-likelihood
+      /// d names; the coordinates in this order fill the model's input vectors.
+      parameter_names;
+  /// JSON object that is passed to the model.
+  std::string config = "{}";
+  /// Total length of its output vectors; 0: its one output is the log-likelihood.
+  std::size_t outputs = 0;
 };
 
 /// The model as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be called
@@ -29,15 +34,16 @@ struct UmBridgeOptions {
 class UmBridge {
  public:
   /// Asks the server for its models and for the sizes of their inputs and outputs.
-  /// \throws errors::InvalidValue for invalid options; ModelError if the server cannot be reached, uses
-  ///         another version of the protocol, does not have the model, or if the number of inputs is not d
-  ///         or the number of outputs differs from the options.
+  /// \throws errors::InvalidValue for invalid options; ModelError if the server cannot be reached,
+  ///         uses another version of the protocol, does not have the model, or if the number of
+  ///         inputs is not d or the number of outputs differs from the options.
   explicit UmBridge(UmBridgeOptions options);
 
   /// \param points  n x d, one row per point
   /// \param log_likelihood  n values, overwritten
-  /// \throws ModelError as JsonConnection::post, and, naming the point, for outputs whose sizes differ from
-  ///         those announced or that are not numbers; io::Interrupted if a signal has been received.
+  /// \throws ModelError as JsonConnection::post, and, naming the point, for outputs whose sizes
+  ///         differ from those announced or that are not numbers; io::Interrupted if a signal has
+  ///         been received.
   void operator()(const Eigen::Ref<const Eigen::MatrixXd>& points,
                   Eigen::Ref<Eigen::VectorXd> log_likelihood) const;
 

@@ -40,9 +40,9 @@ void require_ecdfs(std::span<const Ecdf> ecdfs) {
   if (ecdfs.empty()) throw errors::InvalidValue("ecdfs", "", "at least one");
 }
 
-/// The sum of height(i) * (right(i) - left(i)) over i, divided by n. A width or the sum may exceed the
-/// largest double where the result does not. The sum is then computed for samples scaled by 2^-shift, which
-/// is exact except for samples that are too small to matter beside such widths.
+/// The sum of height(i) * (right(i) - left(i)) over i, divided by n. A width or the sum may exceed
+/// the largest double where the result does not. The sum is then computed for samples scaled by
+/// 2^-shift, which is exact except for samples that are too small to matter beside such widths.
 template <class Heights, class Lefts, class Rights>
 double mean_width(std::size_t terms, double n, Heights height, Lefts left, Rights right) {
   double sum = 0.0;
@@ -129,8 +129,8 @@ PBox envelope(std::span<const Ecdf> ecdfs) {
   const std::vector<Jump> jumps = sorted_jumps(ecdfs);
   PBox box;
 
-  // ECDFs never decrease, so the largest value reached by any jump so far is the value of the largest ECDF
-  // here.
+  // ECDFs never decrease, so the largest value reached by any jump so far is the value of the
+  // largest ECDF here.
   double highest = 0.0;
   for (const Jump& jump : jumps) {
     highest = std::max(highest, jump.right);
@@ -142,8 +142,8 @@ PBox envelope(std::span<const Ecdf> ecdfs) {
     }
   }
 
-  // From the right: an ECDF that still has a jump ahead has the value to the left of its next jump; other
-  // ECDFs are 1.
+  // From the right: an ECDF that still has a jump ahead has the value to the left of its next jump;
+  // other ECDFs are 1.
   box.lower.resize(box.x.size());
   double lowest = 1.0;
   std::size_t next = jumps.size();

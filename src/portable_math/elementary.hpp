@@ -1,11 +1,11 @@
 /// \file
 /// Elementary functions in plain double arithmetic.
 ///
-/// The results of std::exp, std::log, std::sin and std::atan2 depend on the C library and on the instruction
-/// set that it finds at run time. The functions here use IEEE additions, multiplications, divisions and bit
-/// operations in a fixed order instead, so that every machine gives the same bits (compile with
-/// -ffp-contract=off), and they have no branches, so that a loop over them vectorises. Errors are below 3
-/// units in the last place.
+/// The results of std::exp, std::log, std::sin and std::atan2 depend on the C library and on the
+/// instruction set that it finds at run time. The functions here use IEEE additions,
+/// multiplications, divisions and bit operations in a fixed order instead, so that every machine
+/// gives the same bits (compile with -ffp-contract=off), and they have no branches, so that a loop
+/// over them vectorises. Errors are below 3 units in the last place.
 #pragma once
 
 #include <bit>
@@ -14,8 +14,8 @@
 #include <limits>
 #include <numbers>
 
-/// Marks a function that is inlined into every caller, so that a loop over it vectorises for the caller's
-/// instruction set.
+/// Marks a function that is inlined into every caller, so that a loop over it vectorises for the
+/// caller's instruction set.
 #define PORTABLE_MATH_INLINE [[gnu::always_inline]] inline
 
 namespace portable_math {
@@ -70,8 +70,8 @@ PORTABLE_MATH_INLINE double exp(double x) {
                                          2.4801587325547743e-05, 2.7557255400206422e-06, 2.75572736431103e-07,
                                          2.5105217004720745e-08, 2.0914686968086876e-09);
   const double p = 1.0 + (r + r * r * tail);
-  // 2^(k-1), whose exponent field cannot overflow unless the result does; a factor of 2 completes the
-  // scaling.
+  // 2^(k-1), whose exponent field cannot overflow unless the result does; a factor of 2 completes
+  // the scaling.
   const double half_scale = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1022U) << 52U);
   const double in_range = 2.0 * (p * half_scale);
   const double above =
@@ -104,7 +104,8 @@ PORTABLE_MATH_INLINE double log_normal(double x, double exponent) {
 
 }  // namespace detail
 
-/// Natural logarithm of a positive, normal, finite number; for other arguments the result is meaningless.
+/// Natural logarithm of a positive, normal, finite number; for other arguments the result is
+/// meaningless.
 PORTABLE_MATH_INLINE double log_positive(double x) {
   return detail::log_normal(x, 0.0);
 }
@@ -120,8 +121,8 @@ PORTABLE_MATH_INLINE double log(double x) {
   return detail::select(x < 0.0, std::numeric_limits<double>::quiet_NaN(), positive);
 }
 
-/// Angle of the point (x, y), y >= 0, in [0, pi], for finite arguments below 1e307, not both 0. The error is
-/// below 3 ulp.
+/// Angle of the point (x, y), y >= 0, in [0, pi], for finite arguments below 1e307, not both 0. The
+/// error is below 3 ulp.
 PORTABLE_MATH_INLINE double polar_angle(double y, double x) {
   const double ax = std::fabs(x);
   const bool steep = y > ax;
@@ -142,8 +143,8 @@ PORTABLE_MATH_INLINE double polar_angle(double y, double x) {
   return detail::select(x < 0.0, (1.2246467991473532e-16 - second) + 3.141592653589793, second);
 }
 
-/// Angle of the point (x, y) in [-pi, pi], for finite arguments below 1e307; atan2(0, x) = 0 for x >= 0 and
-/// pi for x < 0, whatever the sign of the zeros.
+/// Angle of the point (x, y) in [-pi, pi], for finite arguments below 1e307; atan2(0, x) = 0 for x
+/// >= 0 and pi for x < 0, whatever the sign of the zeros.
 PORTABLE_MATH_INLINE double atan2(double y, double x) {
   const double angle = polar_angle(std::fabs(y), detail::select(x == 0.0 && y == 0.0, 1.0, x));
   return detail::select(y < 0.0, -angle, angle);
@@ -151,8 +152,10 @@ PORTABLE_MATH_INLINE double atan2(double y, double x) {
 
 /// Sine and cosine of one angle; errors below 3 units in the last place.
 struct SinCos {
-  double sin;  ///< in [-1, 1] up to rounding
-  double cos;  ///< in [-1, 1] up to rounding
+  /// In [-1, 1] up to rounding.
+  double sin;
+  /// In [-1, 1] up to rounding.
+  double cos;
 };
 
 /// Sine and cosine of x radians, |x| < 1e5.

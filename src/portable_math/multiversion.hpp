@@ -1,7 +1,7 @@
 /// \file
-/// PORTABLE_MATH_MULTIVERSION before a function compiles it for the baseline, for AVX2 and for AVX-512
-/// (x86-64-v4); the program selects the best version that the processor supports. Without contraction all
-/// versions compute the same bits.
+/// PORTABLE_MATH_MULTIVERSION before a function compiles it for the baseline, for AVX2 and for
+/// AVX-512 (x86-64-v4); the program selects the best version that the processor supports. Without
+/// contraction all versions compute the same bits.
 ///
 /// Checks and measurements can leave versions out: PORTABLE_MATH_NO_AVX512 leaves out the last one,
 /// PORTABLE_MATH_NO_MULTIVERSION all but the version for the compiler's flags.

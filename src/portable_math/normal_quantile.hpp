@@ -22,9 +22,9 @@ inline double central_normal_quantile(double q) {
 
 }  // namespace detail
 
-/// z with P(Z <= z) = p, for p in [0, 1]: rational approximations of Wichura (1988), Algorithm AS 241
-/// (PPND16), whose relative error is about 1e-16. p = 0 gives minus infinity, p = 1 infinity, and any p
-/// outside [0, 1] NaN.
+/// z with P(Z <= z) = p, for p in [0, 1]: rational approximations of Wichura (1988), Algorithm AS
+/// 241 (PPND16), whose relative error is about 1e-16. p = 0 gives minus infinity, p = 1 infinity,
+/// and any p outside [0, 1] NaN.
 inline double normal_quantile(double p) {
   const double q = p - 0.5;
   if (std::fabs(q) <= 0.425) {

@@ -1,6 +1,6 @@
 /// \file
-/// Sums in an order that depends only on the length: eight interleaved partial sums, added pairwise at the
-/// end. Any compiler may vectorise the inner loop, and none may change the result.
+/// Sums in an order that depends only on the length: eight interleaved partial sums, added pairwise
+/// at the end. Any compiler may vectorise the inner loop, and none may change the result.
 #pragma once
 
 #include <cstddef>

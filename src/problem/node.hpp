@@ -37,14 +37,18 @@ struct Node {
 
 /// A key of a table.
 struct Entry {
-  std::string key;  ///< its name
-  Node node;        ///< its value
+  /// Its name.
+  std::string key;
+  /// Its value.
+  Node node;
 };
 
 /// A file and its root, which is a table.
 struct File {
-  std::string path;  ///< path as given
-  Node root;         ///< its tables and values
+  /// Path as given.
+  std::string path;
+  /// Its tables and values.
+  Node root;
 
   /// \throws io::InputError always, with the text "path:line: key: value '...': expected ...".
   [[noreturn]] void fail(const Node& node, std::string_view key, std::string_view expected) const;
@@ -63,11 +67,12 @@ struct File {
 };
 
 /// Reads a file.
-/// \throws io::InputError, naming file and line, if the file cannot be read or is not TOML, and for dates
-///         and times.
+/// \throws io::InputError, naming file and line, if the file cannot be read or is not TOML, and for
+///         dates and times.
 [[nodiscard]] File read_file(const std::string& path);
 
-/// The value as JSON: the form in which a table of the file is passed to a model as its configuration.
+/// The value as JSON: the form in which a table of the file is passed to a model as its
+/// configuration.
 [[nodiscard]] std::string to_json(const Node& node);
 
 }  // namespace problem

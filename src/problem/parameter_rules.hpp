@@ -13,12 +13,13 @@ constexpr double largest_number = 1e100;
 
 /// Requirements of a model on its parameters.
 struct ParameterRules {
-  /// Names of the required parameters, in the order of the model; empty: any names, in the order of the
-  /// file.
+  /// Names of the required parameters, in the order of the model; empty: any names, in the order of
+  /// the file.
   std::vector<std::string> names = {};
   /// Whether no parameter may be negative.
   bool nonnegative = false;
-  /// Throws errors::InvalidValue for a name that a parameter must not have; the function may be empty.
+  /// Throws errors::InvalidValue for a name that a parameter must not have; the function may be
+  /// empty.
   std::function<void(const std::string& name)> require_name = {};
 };
 

@@ -67,7 +67,8 @@ struct Block {
     return t;
   }
 
-  /// The place between the estimate and a bound at which the misfit first has risen by `rise`; or the bound.
+  /// The place between the estimate and a bound at which the misfit first has risen by `rise`; or
+  /// the bound.
   [[nodiscard]] double end(double bound, double rise, bool& at_bound) const {
     constexpr int steps = 256;
     const auto excess = [&](double x) { return above_minimum(x) - rise; };

@@ -70,7 +70,8 @@ BenchmarkProblem gaussian(Index d) {
           .log_evidence = -n * portable_math::log(2.0 * half_width)};
 }
 
-/// x_1 is normal, x_2 is normal about x_1^2, and the others are standard normal: the map has unit Jacobian.
+/// x_1 is normal, x_2 is normal about x_1^2, and the others are standard normal: the map has unit
+/// Jacobian.
 BenchmarkProblem banana(Index d) {
   constexpr double sd = 0.2;
   const auto log_likelihood = [=](const double* x) {
@@ -148,7 +149,8 @@ BenchmarkProblem five_modes(Index d) {
   return normals(in_dimensions("five narrow modes", d), d, d == 2 ? 0.1 : 0.3, centres, masses);
 }
 
-/// v is normal with a standard deviation of 3, and four coordinates are normal with a variance of exp(v).
+/// v is normal with a standard deviation of 3, and four coordinates are normal with a variance of
+/// exp(v).
 BenchmarkProblem funnel() {
   constexpr double largest_v = 12.0;
   constexpr double largest_x = 30.0;

@@ -46,8 +46,8 @@ bool covered(tmcmc::Index rank, const CalibrationOptions& options, double tail) 
   return place > tail && place < 1.0 - tail;
 }
 
-/// Number of ranks from 0 to draws that are covered: a uniform rank is covered with this number over draws +
-/// 1 as its probability.
+/// Number of ranks from 0 to draws that are covered: a uniform rank is covered with this number
+/// over draws + 1 as its probability.
 double covered_values(const CalibrationOptions& options, double tail) {
   double count = 0.0;
   for (tmcmc::Index r = 0; r <= options.draws; ++r) {
@@ -183,7 +183,8 @@ RankHistogram rank_histogram(const std::vector<tmcmc::Index>& ranks, const Calib
 }
 
 std::vector<RankBin> rank_bins(const RankHistogram& histogram) {
-  // Width for a normal distribution function at all 19 inner edges of 20 bins together (Bonferroni).
+  // Width for a normal distribution function at all 19 inner edges of 20 bins together
+  // (Bonferroni).
   constexpr double deviations_of_band = 3.47;
   const double n = std::accumulate(histogram.counts.begin(), histogram.counts.end(), 0.0);
   const double bins = static_cast<double>(histogram.counts.size());

@@ -1,7 +1,8 @@
 /// \file
-/// Simulation-based calibration (Talts, Betancourt, Simpson, Vehtari and Gelman 2018): parameters are drawn
-/// from the prior, and observations from the model at these parameters; over many such pairs the rank of the
-/// true parameter among posterior draws is uniform if the sampler samples the posterior.
+/// Simulation-based calibration (Talts, Betancourt, Simpson, Vehtari and Gelman 2018): parameters
+/// are drawn from the prior, and observations from the model at these parameters; over many such
+/// pairs the rank of the true parameter among posterior draws is uniform if the sampler samples the
+/// posterior.
 #pragma once
 
 #include <functional>
@@ -13,12 +14,18 @@ namespace replication {
 
 /// Size of a calibration, and its random streams.
 struct CalibrationOptions {
-  tmcmc::Index replications = 2000;  ///< simulated data sets
+  /// Simulated data sets.
+  tmcmc::Index replications = 2000;
   tmcmc::Index draws =
-      99;  ///< posterior draws among which the truth is ranked: evenly spaced rows of the final population, or, if its samples are weighted, multinomial draws from it
-  tmcmc::Index bins = 20;  ///< bins of the rank histogram; must divide draws + 1
-  std::uint64_t seed = 1;  ///< of the simulated pairs and of the runs
-  int threads = 1;         ///< over the replications
+      /// Posterior draws among which the truth is ranked: evenly spaced rows of the final
+      /// population, or, if its samples are weighted, multinomial draws from it.
+      99;
+  /// Bins of the rank histogram; must divide draws + 1.
+  tmcmc::Index bins = 20;
+  /// Of the simulated pairs and of the runs.
+  std::uint64_t seed = 1;
+  /// Over the replications.
+  int threads = 1;
 
   /// \throws errors::InvalidValue naming field, value and constraint.
   void validate() const;
@@ -26,18 +33,23 @@ struct CalibrationOptions {
 
 /// Ranks of the true parameters; see rank_histogram for their interpretation.
 struct CalibrationResult {
-  std::vector<std::vector<tmcmc::Index>> ranks;  ///< [parameter][replication], from 0 to draws
-  tmcmc::Index unfinished = 0;  ///< runs that ended before beta = 1; ranked in their last population
-  tmcmc::Index warned = 0;      ///< runs with a warning (Options::diagnose); they are ranked nevertheless
+  /// [parameter][replication], from 0 to draws.
+  std::vector<std::vector<tmcmc::Index>> ranks;
+  /// Runs that ended before beta = 1; ranked in their last population.
+  tmcmc::Index unfinished = 0;
+  /// Runs with a warning (Options::diagnose); they are ranked nevertheless.
+  tmcmc::Index warned = 0;
 };
 
-/// Parameters drawn from the prior, and observations simulated with them: the nominal ratio and the phase of
-/// each row of the design are drawn anew, while measured ratio and driving frequency stay. Pairs without
-/// continuous motion or with a nominal ratio that is not positive are drawn again; since the latter
-/// condition depends on the data alone, the ranks stay uniform.
+/// Parameters drawn from the prior, and observations simulated with them: the nominal ratio and the
+/// phase of each row of the design are drawn anew, while measured ratio and driving frequency stay.
+/// Pairs without continuous motion or with a nominal ratio that is not positive are drawn again;
+/// since the latter condition depends on the data alone, the ranks stay uniform.
 struct SimulatedPair {
-  Eigen::VectorXd parameters;           ///< in the order of friction::Parameter
-  friction::Observations observations;  ///< drawn from the model at these parameters
+  /// In the order of friction::Parameter.
+  Eigen::VectorXd parameters;
+  /// Drawn from the model at these parameters.
+  friction::Observations observations;
 };
 /// Simulated pair number `replication` of the seed.
 /// \throws tmcmc::InfeasiblePriorError if none of 1000000 draws can be kept.
@@ -54,40 +66,59 @@ struct SimulatedPair {
 
 /// Rank histogram of one parameter, and tests of its uniformity.
 struct RankHistogram {
-  std::vector<tmcmc::Index> counts;  ///< one entry per bin
-  double chi_squared = 0.0;          ///< with bins - 1 degrees of freedom
-  double coverage_50 = 0.0;          ///< fraction of the truths inside the central 50 % of the draws
-  double coverage_90 = 0.0;          ///< fraction of the truths inside the central 90 % of the draws
-  double p_chi_squared = 1.0;        ///< p-value of chi_squared
-  double p_coverage_50 = 1.0;        ///< two-sided, from the binomial distribution
-  double p_coverage_90 = 1.0;        ///< two-sided, from the binomial distribution
+  /// One entry per bin.
+  std::vector<tmcmc::Index> counts;
+  /// With bins - 1 degrees of freedom.
+  double chi_squared = 0.0;
+  /// Fraction of the truths inside the central 50 % of the draws.
+  double coverage_50 = 0.0;
+  /// Fraction of the truths inside the central 90 % of the draws.
+  double coverage_90 = 0.0;
+  /// p-value of chi_squared.
+  double p_chi_squared = 1.0;
+  /// Two-sided, from the binomial distribution.
+  double p_coverage_50 = 1.0;
+  /// Two-sided, from the binomial distribution.
+  double p_coverage_90 = 1.0;
 };
 /// \param ranks  ranks from 0 to draws, at least one
 /// \throws errors::InvalidValue for invalid options or a rank out of range.
 [[nodiscard]] RankHistogram rank_histogram(const std::vector<tmcmc::Index>& ranks,
                                            const CalibrationOptions& options);
 
-/// Data of a figure for one bin of a rank histogram, and for the ranks' distribution function at its upper
-/// edge.
+/// Data of a figure for one bin of a rank histogram, and for the ranks' distribution function at
+/// its upper edge.
 struct RankBin {
-  double place = 0.0;            ///< middle of the bin, in (0, 1)
-  tmcmc::Index count = 0;        ///< ranks in the bin
-  double expected = 0.0;         ///< expected count for uniform ranks
-  double band_low = 0.0;         ///< 0.5 % quantile of the binomial distribution
-  double band_high = 0.0;        ///< 99.5 % quantile of the binomial distribution
-  double edge = 0.0;             ///< upper end of the bin, in (0, 1]
-  double ecdf_difference = 0.0;  ///< share of the ranks below the edge, minus the edge
+  /// Middle of the bin, in (0, 1).
+  double place = 0.0;
+  /// Ranks in the bin.
+  tmcmc::Index count = 0;
+  /// Expected count for uniform ranks.
+  double expected = 0.0;
+  /// 0.5 % quantile of the binomial distribution.
+  double band_low = 0.0;
+  /// 99.5 % quantile of the binomial distribution.
+  double band_high = 0.0;
+  /// Upper end of the bin, in (0, 1].
+  double edge = 0.0;
+  /// Share of the ranks below the edge, minus the edge.
+  double ecdf_difference = 0.0;
   double ecdf_band =
-      0.0;  ///< uniform ranks: all differences at the edges of 20 bins lie within it with probability 99 %
+      /// Uniform ranks: all differences at the edges of 20 bins lie within it with probability 99
+      /// %.
+      0.0;
 };
 /// The bins of a histogram, from low ranks to high ones.
 [[nodiscard]] std::vector<RankBin> rank_bins(const RankHistogram& histogram);
 
 /// Judgement of a sampler by the ranks of all parameters.
 struct CalibrationVerdict {
-  std::vector<RankHistogram> histograms;  ///< one per parameter
-  double smallest_p = 1.0;  ///< over the three tests of each parameter, adjusted for their number (Holm 1979)
-  bool is_calibrated = false;  ///< whether smallest_p is 0.01 or more
+  /// One per parameter.
+  std::vector<RankHistogram> histograms;
+  /// Over the three tests of each parameter, adjusted for their number (Holm 1979).
+  double smallest_p = 1.0;
+  /// Whether smallest_p is 0.01 or more.
+  bool is_calibrated = false;
 };
 /// \throws errors::InvalidValue as rank_histogram.
 [[nodiscard]] CalibrationVerdict judge_calibration(const CalibrationResult& result,

@@ -11,17 +11,20 @@ namespace replication {
 
 /// The claims in the order of their file.
 struct ClaimTable {
-  std::vector<std::string> ids,  ///< C1, C2, ...
-      places,                    ///< where the paper makes the claim
-      texts;                     ///< what the claim says
+  /// C1, C2, ...
+  std::vector<std::string> ids;
+  /// Where the paper makes the claim.
+  std::vector<std::string> places;
+  /// What the claim says.
+  std::vector<std::string> texts;
 };
 
 /// Reads claims from the columns id, place and claim; each claim that has a judge must occur once.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] ClaimTable read_claims(const std::string& path);
 
-/// Rank correlation, over the runs of a study as written by sampling_study, of the number of iterations with
-/// the distance between the run's mean friction force and the exact mean.
+/// Rank correlation, over the runs of a study as written by sampling_study, of the number of
+/// iterations with the distance between the run's mean friction force and the exact mean.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] RankCorrelation iterations_and_error(const std::string& path, double exact_mean_n);
 

@@ -1,5 +1,6 @@
 /// \file
-/// Verdicts on the claims C1 to C15 of the paper (data/published/claims.csv), each with its evidence.
+/// Verdicts on the claims C1 to C15 of the paper (data/published/claims.csv), each with its
+/// evidence.
 #pragma once
 
 #include <string>
@@ -11,19 +12,25 @@
 
 namespace replication {
 
-/// A judged claim. How likely the printed number behind the claim is, and whether the claim is borne out,
-/// are two separate questions.
+/// A judged claim. How likely the printed number behind the claim is, and whether the claim is
+/// borne out, are two separate questions.
 struct JudgedClaim {
-  std::string number;    ///< name_of(Chance), or the reason why none applies
-  Verdict claim;         ///< verdict on the claim itself
-  std::string evidence;  ///< the statistic behind the verdict, as a sentence
+  /// name_of(Chance), or the reason why none applies.
+  std::string number;
+  /// Verdict on the claim itself.
+  Verdict claim;
+  /// The statistic behind the verdict, as a sentence.
+  std::string evidence;
 };
 
 /// The comparisons of the two samplers behind C2 to C5.
 struct Contrasts {
-  ContrastVerdict friction_force;     ///< ratio of areas, second sampler over first
-  ContrastVerdict natural_frequency;  ///< ratio of areas, second sampler over first
-  ContrastVerdict iterations;         ///< two-sample deviance of the counts
+  /// Ratio of areas, second sampler over first.
+  ContrastVerdict friction_force;
+  /// Ratio of areas, second sampler over first.
+  ContrastVerdict natural_frequency;
+  /// Two-sample deviance of the counts.
+  ContrastVerdict iterations;
 };
 
 /// \param printed  columns of the first and the second sampler
@@ -33,9 +40,9 @@ struct Contrasts {
                                           const std::vector<PrintedColumn>& printed, std::uint64_t seed,
                                           const TableDraws& draws = {});
 
-/// C1: the share of studies whose p-boxes contain both stated values, and the posterior probability of the
-/// stated force. Where nearly every study contains a value that the posterior puts beyond its central 95 %,
-/// the claim is true whatever the samplers do.
+/// C1: the share of studies whose p-boxes contain both stated values, and the posterior probability
+/// of the stated force. Where nearly every study contains a value that the posterior puts beyond
+/// its central 95 %, the claim is true whatever the samplers do.
 /// \param exceedance  P(F_mu > stated force) of the exact posterior
 [[nodiscard]] JudgedClaim judge_enclosure(const std::vector<StudySummary>& studies, const Truth& stated,
                                           double exceedance);
@@ -63,8 +70,8 @@ struct Contrasts {
 [[nodiscard]] JudgedClaim judge_iterations_as_evidence(const RankCorrelation& correlation);
 
 /// C12: whether runs vary more than independent draws from the posterior would.
-/// \param area, floor  median p-box areas of the friction force, N: over the studies, and of independent
-///        draws
+/// \param area, floor  median p-box areas of the friction force, N: over the studies, and of
+///        independent draws
 [[nodiscard]] JudgedClaim judge_variability(double area, double floor);
 
 /// C15: chi^2 of the observations with the stated noise levels.
@@ -72,15 +79,23 @@ struct Contrasts {
 
 /// The evidence by which the claims are judged.
 struct ClaimEvidence {
-  const std::vector<StudySummary>& studies;   ///< replicated studies of both samplers
-  const std::vector<PrintedColumn>& printed;  ///< Tables 3 and 4 as printed
-  const Contrasts& contrasts;                 ///< verdicts on the differences of the samplers
-  const Audit& audit;                         ///< audit of Table 1, with the exact phase and limit
-  Truth stated;                               ///< values stated in the paper
-  double exceedance = 0.0;                    ///< P(F_mu > stated force) of the exact posterior
+  /// Replicated studies of both samplers.
+  const std::vector<StudySummary>& studies;
+  /// Tables 3 and 4 as printed.
+  const std::vector<PrintedColumn>& printed;
+  /// Verdicts on the differences of the samplers.
+  const Contrasts& contrasts;
+  /// Audit of Table 1, with the exact phase and limit.
+  const Audit& audit;
+  /// Values stated in the paper.
+  Truth stated;
+  /// P(F_mu > stated force) of the exact posterior.
+  double exceedance = 0.0;
   RankCorrelation
-      iterations_and_error;  ///< over runs: iterations against the distance of the mean from the exact mean
-  double floor_n = 0.0;      ///< median p-box area of independent draws, N
+      /// Over runs: iterations against the distance of the mean from the exact mean.
+      iterations_and_error;
+  /// Median p-box area of independent draws, N.
+  double floor_n = 0.0;
 };
 
 /// The identifiers "C1" to "C15", in this order.
@@ -92,9 +107,12 @@ struct ClaimEvidence {
 
 /// A number behind the verdicts.
 struct Statistic {
-  std::string quantity;         ///< name of the quantity
-  double value = 0.0;           ///< value of the quantity
-  double standard_error = 0.0;  ///< Monte Carlo standard error; NaN where there is none
+  /// Name of the quantity.
+  std::string quantity;
+  /// Value of the quantity.
+  double value = 0.0;
+  /// Monte Carlo standard error; NaN where there is none.
+  double standard_error = 0.0;
 };
 
 /// The numbers on which the evidence and the report are based, apart from the contrasts.

@@ -12,27 +12,38 @@
 
 namespace replication {
 
-/// A cell of a printed table, or a test of several cells together (table "joint"). Unknown values are NaN or
-/// empty.
+/// A cell of a printed table, or a test of several cells together (table "joint"). Unknown values
+/// are NaN or empty.
 struct ComparedCell {
   /// NaN, for unknown numbers.
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  std::string table,                         ///< position of the cell: its table,
-      row,                                   ///< its row,
-      column;                                ///< its column
-  double printed = unknown;                  ///< as printed
-  double ours = unknown;                     ///< the same number from one study of ours
-  double median = unknown;                   ///< median of replicated studies
-  Interval95 interval = {unknown, unknown};  ///< central 95 % of the replicated studies
-  double printed_percentile = unknown;       ///< percentile of the printed number among the studies
-  double our_percentile = unknown;           ///< percentile of our number among the studies
-  PValue p = {unknown, unknown};             ///< not adjusted for multiple tests
-  std::string verdict = {};                  ///< name_of(Compatibility)
+  /// Table that the cell is in.
+  std::string table;
+  /// Its row.
+  std::string row;
+  /// Its column.
+  std::string column;
+  /// As printed.
+  double printed = unknown;
+  /// The same number from one study of ours.
+  double ours = unknown;
+  /// Median of replicated studies.
+  double median = unknown;
+  /// Central 95 % of the replicated studies.
+  Interval95 interval = {unknown, unknown};
+  /// Percentile of the printed number among the studies.
+  double printed_percentile = unknown;
+  /// Percentile of our number among the studies.
+  double our_percentile = unknown;
+  /// Not adjusted for multiple tests.
+  PValue p = {unknown, unknown};
+  /// name_of(Compatibility).
+  std::string verdict = {};
 };
 
-/// Appends a cell for each row of either table and each of the columns; rows are matched by the key column.
-/// Values that a table lacks count as `missing`.
+/// Appends a cell for each row of either table and each of the columns; rows are matched by the key
+/// column. Values that a table lacks count as `missing`.
 /// \throws io::InputError naming file, line, column and value; also for a key that occurs twice.
 void compare(std::vector<ComparedCell>& cells, const std::string& name, const std::string& key,
              const std::vector<std::string>& columns, const io::CsvTable& printed, const io::CsvTable& ours,
@@ -44,10 +55,10 @@ void compare_bounds(std::vector<ComparedCell>& cells, const tmcmc::Prior& printe
 /// Our number minus the printed one; for a phase angle, deg, the shortest rotation.
 [[nodiscard]] double difference(const ComparedCell& cell);
 
-/// Places the cells of "Table 3" (rows are samplers, columns parameters) and "Table 4" (rows are numbers of
-/// iterations, columns samplers) among the studies, and appends the joint tests in rows "areas", "counts",
-/// each sampler, and "all". Table 4 as a whole has one p-value; its cells have none. The rows of the
-/// samplers, which are parts of "all", get no verdict.
+/// Places the cells of "Table 3" (rows are samplers, columns parameters) and "Table 4" (rows are
+/// numbers of iterations, columns samplers) among the studies, and appends the joint tests in rows
+/// "areas", "counts", each sampler, and "all". Table 4 as a whole has one p-value; its cells have
+/// none. The rows of the samplers, which are parts of "all", get no verdict.
 /// \throws errors::InvalidValue as judge_areas and test_jointly.
 void place_among_studies(std::vector<ComparedCell>& cells, const std::vector<StudySummary>& studies,
                          const std::vector<PrintedArea>& areas, const std::vector<PrintedCounts>& counts,

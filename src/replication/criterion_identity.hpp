@@ -1,7 +1,7 @@
 /// \file
-/// The two criteria are the same equation: N_eff = N / (1 + CoV^2), with the population standard deviation,
-/// so that CoV = 100 % (Eq. 6) and N_eff = N/2 (Eq. 9) choose the same step. This is shown on the
-/// populations of whole runs.
+/// The two criteria are the same equation: N_eff = N / (1 + CoV^2), with the population standard
+/// deviation, so that CoV = 100 % (Eq. 6) and N_eff = N/2 (Eq. 9) choose the same step. This is
+/// shown on the populations of whole runs.
 #pragma once
 
 #include <span>
@@ -13,27 +13,41 @@ namespace replication {
 
 /// A stage of TMCMC, with the result of each rule for its population; N is the number of samples.
 struct StageUnderBothRules {
-  double beta = 0.0;                               ///< before the step
-  double step_cov = 0.0;                           ///< step chosen by CoV, and taken by the run
-  double step_ess = 0.0;                           ///< step chosen by N_eff
-  double step_cov_sample = 0.0;                    ///< step chosen by CoV with the N - 1 standard deviation
-  double effective_sample_size = 0.0;              ///< after step_cov
-  double coefficient_of_variation = 0.0;           ///< after step_cov, population
-  double samples_over_one_plus_cov_squared = 0.0;  ///< N / (1 + CoV^2)
-  double effective_sample_size_sample = 0.0;       ///< after step_cov_sample
-  double beta_tmcmc = 0.0;                         ///< after the stage
-  double beta_tmcmc_ii = 0.0;  ///< TMCMC-II after as many stages; NaN if it has ended earlier
+  /// Before the step.
+  double beta = 0.0;
+  /// Step chosen by CoV, and taken by the run.
+  double step_cov = 0.0;
+  /// Step chosen by N_eff.
+  double step_ess = 0.0;
+  /// Step chosen by CoV with the N - 1 standard deviation.
+  double step_cov_sample = 0.0;
+  /// After step_cov.
+  double effective_sample_size = 0.0;
+  /// After step_cov, population.
+  double coefficient_of_variation = 0.0;
+  /// N / (1 + CoV^2).
+  double samples_over_one_plus_cov_squared = 0.0;
+  /// After step_cov_sample.
+  double effective_sample_size_sample = 0.0;
+  /// After the stage.
+  double beta_tmcmc = 0.0;
+  /// TMCMC-II after as many stages; NaN if it has ended earlier.
+  double beta_tmcmc_ii = 0.0;
 };
 
 /// A run of each sampler on the same random stream.
 struct RunUnderBothRules {
-  std::vector<StageUnderBothRules> stages;  ///< of TMCMC
-  double path_difference = 0.0;  ///< largest relative difference of beta; 1 if TMCMC-II has fewer stages
-  bool is_same_path = false;     ///< same number of stages, and no difference beyond rounding
+  /// Of TMCMC.
+  std::vector<StageUnderBothRules> stages;
+  /// Largest relative difference of beta; 1 if TMCMC-II has fewer stages.
+  double path_difference = 0.0;
+  /// Same number of stages, and no difference beyond rounding.
+  bool is_same_path = false;
 };
 
 /// Runs both samplers, and solves each rule as written on each population of the first sampler.
-/// \param by_cov, by_ess  options with a coefficient of variation (TMCMC) and an effective sample size (TMCMC-II) as criterion
+/// \param by_cov, by_ess  options with a coefficient of variation (TMCMC) and an effective sample
+///        size (TMCMC-II) as criterion
 /// \param key  key of the random stream, the same for both samplers
 /// \throws as tmcmc::run.
 [[nodiscard]] RunUnderBothRules run_under_both_rules(const tmcmc::Problem& problem,
@@ -43,12 +57,18 @@ struct RunUnderBothRules {
 
 /// Largest relative differences over all stages of the runs.
 struct RuleDifferences {
-  double of_steps = 0.0;             ///< between step_ess and step_cov
-  double of_identity = 0.0;          ///< between N / (1 + CoV^2) and N_eff
-  double of_sample_deviation = 0.0;  ///< between step_cov_sample and step_cov
-  double of_paths = 0.0;             ///< between the paths of beta in whole runs
-  std::size_t stages = 0;            ///< number of stages of all runs
-  std::size_t same_paths = 0;        ///< runs with the same path
+  /// Between step_ess and step_cov.
+  double of_steps = 0.0;
+  /// Between N / (1 + CoV^2) and N_eff.
+  double of_identity = 0.0;
+  /// Between step_cov_sample and step_cov.
+  double of_sample_deviation = 0.0;
+  /// Between the paths of beta in whole runs.
+  double of_paths = 0.0;
+  /// Number of stages of all runs.
+  std::size_t stages = 0;
+  /// Runs with the same path.
+  std::size_t same_paths = 0;
 };
 /// \param runs  results of run_under_both_rules
 [[nodiscard]] RuleDifferences rule_differences(std::span<const RunUnderBothRules> runs);

@@ -1,6 +1,6 @@
 /// \file
-/// Runs of a sampler that draws from the exact posterior: a lower limit for the p-box areas of any other
-/// sampler.
+/// Runs of a sampler that draws from the exact posterior: a lower limit for the p-box areas of any
+/// other sampler.
 #pragma once
 
 #include <array>

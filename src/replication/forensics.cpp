@@ -33,8 +33,8 @@ std::vector<StudySummary> shifted(std::vector<StudySummary> studies, int shift) 
   return studies;
 }
 
-/// Categories such that a number of iterations that no run of any setting took still has a probability under
-/// each setting.
+/// Categories such that a number of iterations that no run of any setting took still has a
+/// probability under each setting.
 Counts all_categories(const std::vector<std::vector<StudySummary>>& studies,
                       const std::vector<PrintedColumn>& printed) {
   Counts categories;

@@ -27,7 +27,8 @@ std::vector<double> ratios(const io::CsvTable& table, const char* column) {
       "a ratio between 1e-4 and 1e6");
 }
 
-/// A value that is refused, with its place in the file of the prior. What is no regular file cannot be read a second time.
+/// A value that is refused, with its place in the file of the prior. What is no regular file cannot
+/// be read a second time.
 [[noreturn]] void fail_prior(const std::string& path, const errors::InvalidValue& invalid) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) {

@@ -28,8 +28,8 @@ struct ProblemFiles {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
 
-/// The prior of the four parameters of the paper from a file (problem/prior_file.hpp); none of them may be
-/// negative.
+/// The prior of the four parameters of the paper from a file (problem/prior_file.hpp); none of them
+/// may be negative.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] tmcmc::Prior read_prior(const std::string& path, const std::string& correlations = {});
 
@@ -42,14 +42,15 @@ struct ProblemFiles {
 /// \throws io::InputError for another prior.
 [[nodiscard]] estimation::ParameterBounds bounds_of(const tmcmc::Prior& prior, std::string_view what);
 
-/// A prior of independent parameters in the form that the quadrature needs, with quantiles as breaks.
+/// A prior of independent parameters in the form that the quadrature needs, with quantiles as
+/// breaks.
 /// \throws io::InputError for parameters that are not independent.
 [[nodiscard]] estimation::ParameterPriors quadrature_priors(const tmcmc::Prior& prior);
 
 /// The exact posterior under a prior that was read from the files.
-/// \throws io::InputError if the prior holds no friction force with continuous motion, or a bound that a
-///         density cannot have, naming file, line, column and value of the prior; the file alone if it
-///         cannot be read again.
+/// \throws io::InputError if the prior holds no friction force with continuous motion, or a bound
+///         that a density cannot have, naming file, line, column and value of the prior; the file
+///         alone if it cannot be read again.
 [[nodiscard]] estimation::ExactPosterior exact_posterior_for(const ProblemFiles& files,
                                                              const friction::Likelihood& likelihood,
                                                              const tmcmc::Prior& prior);

@@ -9,11 +9,13 @@
 
 namespace replication {
 
-/// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion (Eq. 18),
-/// one row per point.
+/// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion
+/// (Eq. 18), one row per point.
 struct Phases {
-  std::vector<double> phase_deg,  ///< in degrees
-      limit_force_ratio;          ///< as a multiple of the driving force
+  /// In degrees.
+  std::vector<double> phase_deg;
+  /// As a multiple of the driving force.
+  std::vector<double> limit_force_ratio;
 };
 
 /// Phases and limits at the points in the columns friction_force_n and frequency_ratio.

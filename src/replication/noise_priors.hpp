@@ -17,10 +17,11 @@ struct NoisePrior {
   tmcmc::Prior prior;
 };
 
-/// Priors whose noise levels are uniform as in the box, log-uniform between the same bounds, and half-normal
-/// with a standard deviation of half the upper bound.
+/// Priors whose noise levels are uniform as in the box, log-uniform between the same bounds, and
+/// half-normal with a standard deviation of half the upper bound.
 /// \param box  bounds of the four parameters, in the order of friction::Parameter
-/// \throws errors::InvalidValue for bounds that a distribution cannot have, such as a log-uniform 0.
+/// \throws errors::InvalidValue for bounds that a distribution cannot have, such as a log-uniform
+///         0.
 [[nodiscard]] std::vector<NoisePrior> noise_priors(const tmcmc::Prior& box);
 
 }  // namespace replication

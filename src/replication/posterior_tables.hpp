@@ -1,5 +1,6 @@
 /// \file
-/// Contents of figures and tables about the exact posterior, and the distances of the samplers from it.
+/// Contents of figures and tables about the exact posterior, and the distances of the samplers from
+/// it.
 #pragma once
 
 #include <array>
@@ -44,8 +45,8 @@ struct QuantityError {
   double exact;
   /// Error of the estimates.
   statistics::EstimateError error;
-  /// Number of independent samples whose mean would have the same spread; NaN for quantities other than
-  /// means.
+  /// Number of independent samples whose mean would have the same spread; NaN for quantities other
+  /// than means.
   double effective_size;
 };
 

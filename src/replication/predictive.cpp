@@ -30,8 +30,8 @@ Counts counts_of(const StudySummary& study) {
   return {study.iterations.begin(), study.iterations.end()};
 }
 
-/// P-value from a share of pairs, where the printed pair counts as one more; if no pair is below it, the
-/// error is that of one in n/2 independent pairs.
+/// P-value from a share of pairs, where the printed pair counts as one more; if no pair is below
+/// it, the error is that of one in n/2 independent pairs.
 PValue of_pairs(double share, double pairs, double standard_error, double independent_pairs) {
   return {(share * pairs + 1.0) / (pairs + 1.0), share > 0.0 ? standard_error : 1.0 / independent_pairs};
 }

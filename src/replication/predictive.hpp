@@ -1,6 +1,6 @@
 /// \file
-/// The predictive distribution of the printed tables under one setting of a sampler: a density, and how
-/// often the setting's own studies are as improbable.
+/// The predictive distribution of the printed tables under one setting of a sampler: a density, and
+/// how often the setting's own studies are as improbable.
 #pragma once
 
 #include <array>
@@ -18,12 +18,15 @@ using statistics::category_probabilities;
 using statistics::Counts;
 using statistics::log_multinomial;
 
-/// Logarithm of the predictive density of a column, in two parts. Their sum ignores the dependence between
-/// the parts, which is present in the studies with which the sum is compared.
+/// Logarithm of the predictive density of a column, in two parts. Their sum ignores the dependence
+/// between the parts, which is present in the studies with which the sum is compared.
 struct LogDensity {
   double areas =
-      0.0;  ///< Normal in the logarithms of the areas, with the moments and the correlation of the studies
-  double counts = 0.0;  ///< multinomial, with the shares of all runs of the studies
+      /// Normal in the logarithms of the areas, with the moments and the correlation of the
+      /// studies.
+      0.0;
+  /// Multinomial, with the shares of all runs of the studies.
+  double counts = 0.0;
 
   /// Log-density of the whole column.
   [[nodiscard]] double both() const { return areas + counts; }
@@ -33,8 +36,8 @@ struct LogDensity {
 class Prediction {
  public:
   /// \param studies  studies of the setting, at least 3, each with at least two areas
-  /// \param categories  numbers of iterations that must have a probability, whether or not a run took that
-  ///        many
+  /// \param categories  numbers of iterations that must have a probability, whether or not a run
+  ///        took that many
   /// \throws errors::InvalidValue for fewer studies, or areas that are not positive or all equal.
   Prediction(const std::vector<StudySummary>& studies, const Counts& categories);
 
@@ -46,27 +49,29 @@ class Prediction {
   [[nodiscard]] const std::vector<LogDensity>& of_studies() const { return of_studies_; }
 
  private:
-  std::array<double, 2> mean_{};  // mean of the logarithms of the areas
+  // mean of the logarithms of the areas
+  std::array<double, 2> mean_{};
   std::array<double, 2> standard_deviation_{};
   double correlation_ = 0.0;
-  std::map<std::int64_t, double> probabilities_;  // probability of each number of iterations
+  // probability of each number of iterations
+  std::map<std::int64_t, double> probabilities_;
   std::vector<LogDensity> of_studies_;
 };
 
-/// Absolute predictive p-value of one column: the share of the setting's own studies that are at most as
-/// probable as the column, where the column itself counts as one of them.
+/// Absolute predictive p-value of one column: the share of the setting's own studies that are at
+/// most as probable as the column, where the column itself counts as one of them.
 /// \param scores  log-densities of the studies, not empty
 /// \param printed  log-density of the printed column
 [[nodiscard]] PValue predictive_p(std::span<const double> scores, double printed);
 
-/// Absolute predictive p-value of two columns made by one setting: the share of all pairs of its studies
-/// whose log-densities add up to at most that of the printed pair. The standard error is that of a
-/// U-statistic, by Hoeffding's projection.
+/// Absolute predictive p-value of two columns made by one setting: the share of all pairs of its
+/// studies whose log-densities add up to at most that of the printed pair. The standard error is
+/// that of a U-statistic, by Hoeffding's projection.
 /// \param scores  log-densities of at least two studies
 [[nodiscard]] PValue predictive_p_of_pair(std::span<const double> scores, double printed);
 
-/// Absolute predictive p-value of two columns made by two settings: over all pairs of a study of the first
-/// setting and one of the second.
+/// Absolute predictive p-value of two columns made by two settings: over all pairs of a study of
+/// the first setting and one of the second.
 [[nodiscard]] PValue predictive_p_of_pair(std::span<const double> first, std::span<const double> second,
                                           double printed);
 

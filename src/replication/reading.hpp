@@ -1,6 +1,6 @@
 /// \file
-/// Readings of the paper. Its text, its authors' published scripts and correct mathematics differ in places;
-/// each difference is one option of the library, and a reading is a set of options.
+/// Readings of the paper. Its text, its authors' published scripts and correct mathematics differ
+/// in places; each difference is one option of the library, and a reading is a set of options.
 #pragma once
 
 #include <array>
@@ -17,19 +17,25 @@ namespace replication {
 
 /// A complete set of options: sampler, physics, likelihood and prior.
 struct Reading {
-  tmcmc::Options sampler;  ///< all options but kind and target of the criterion, set by the samplers compared
-  friction::Physics physics;               ///< rules of the phase model: Eqs. 18 and 21
-  double infeasible_log_likelihood = 0.0;  ///< value where the motion is not continuous
+  /// All options but kind and target of the criterion, set by the samplers compared.
+  tmcmc::Options sampler;
+  /// Rules of the phase model: Eqs. 18 and 21.
+  friction::Physics physics;
+  /// Value where the motion is not continuous.
+  double infeasible_log_likelihood = 0.0;
   /// Lower prior bound of the natural frequency, Hz, where it differs from Table 2.
   std::optional<double> natural_frequency_lower_hz;
 };
 
 /// The available readings.
 enum class ReadingName {
-  as_published,  ///< the authors' published scripts, with N_eff = N/2 for TMCMC-II: the default of the
-                 ///< reproduction
-  as_worded,     ///< the text of the paper, as far as it can be run
-  corrected      ///< correct mathematics
+  /// The authors' published scripts, with N_eff = N/2 for TMCMC-II: the default of the
+  /// reproduction.
+  as_published,
+  /// The text of the paper, as far as it can be run.
+  as_worded,
+  /// Correct mathematics.
+  corrected
 };
 constexpr std::array<std::string_view, 3> enumerator_names(std::type_identity<ReadingName>) {
   return {"as_published", "as_worded", "corrected"};
@@ -52,11 +58,14 @@ constexpr std::array<std::string_view, 3> enumerator_names(std::type_identity<Re
 
 /// One of the samplers that a study compares: a name and complete options.
 struct Arm {
-  std::string name;        ///< as in tables and files
-  tmcmc::Options options;  ///< complete, criterion included
+  /// As in tables and files.
+  std::string name;
+  /// Complete, criterion included.
+  tmcmc::Options options;
 };
 
-/// The paper's two samplers: TMCMC (CoV = cov_target, Eq. 6) and TMCMC-II (N_eff = ess_fraction N, Eq. 9).
+/// The paper's two samplers: TMCMC (CoV = cov_target, Eq. 6) and TMCMC-II (N_eff = ess_fraction N,
+/// Eq. 9).
 [[nodiscard]] std::vector<Arm> paper_arms(const Reading& reading, double cov_target = 1.0,
                                           double ess_fraction = 0.5);
 

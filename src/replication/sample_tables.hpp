@@ -12,8 +12,8 @@
 
 namespace replication {
 
-/// Columns of each sampler's runs, from a file with columns `sampler`, `run` and at least one column of
-/// numbers.
+/// Columns of each sampler's runs, from a file with columns `sampler`, `run` and at least one
+/// column of numbers.
 struct GroupedColumns {
   /// Names of the samplers, in the order in which they first appear.
   std::vector<std::string> samplers;
@@ -21,8 +21,8 @@ struct GroupedColumns {
   std::vector<std::string> columns;
   /// values[sampler][column][run]: the numbers in the order of the file.
   std::vector<std::vector<std::vector<std::vector<double>>>> values;
-  /// weights[sampler][run] from the column `weight`; empty without that column, when all samples count
-  /// equally.
+  /// weights[sampler][run] from the column `weight`; empty without that column, when all samples
+  /// count equally.
   std::vector<std::vector<std::vector<double>>> weights = {};
 
   /// Weighted mean and standard deviation of a column of a run.
@@ -32,24 +32,25 @@ struct GroupedColumns {
   [[nodiscard]] std::vector<pbox::Ecdf> ecdfs(std::size_t sampler, std::size_t column) const;
 };
 
-/// Reads samples of a study (any parameters), grouped by sampler and run. A column `weight` holds the weights of the samples.
+/// Reads samples of a study (any parameters), grouped by sampler and run. A column `weight` holds
+/// the weights of the samples.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] GroupedColumns read_samples(const std::string& path);
 /// As read_samples(path), for a table that has been read.
 [[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table);
 
-/// As read_samples, keeping only the named columns, in the given order; `expected` says which file was
-/// expected.
+/// As read_samples, keeping only the named columns, in the given order; `expected` says which file
+/// was expected.
 /// \throws as read_samples; also if a column is missing.
 [[nodiscard]] GroupedColumns read_samples(const io::CsvTable& table, const std::vector<std::string>& names,
                                           const std::string& expected);
 
-/// Names of the mean and standard deviation of each parameter in turn, and of the log-evidence: columns of
-/// the runs of a study.
+/// Names of the mean and standard deviation of each parameter in turn, and of the log-evidence:
+/// columns of the runs of a study.
 [[nodiscard]] const std::vector<std::string>& estimated_quantities();
 
-/// The estimates of each run, in the order of estimated_quantities, from the runs that sampling_study
-/// writes.
+/// The estimates of each run, in the order of estimated_quantities, from the runs that
+/// sampling_study writes.
 /// \throws as read_samples; also for a second row of the same run or a negative standard deviation.
 [[nodiscard]] GroupedColumns read_estimates(const std::string& path);
 
@@ -78,7 +79,8 @@ void write_stages(io::CsvWriter& table, const std::string& sampler, std::size_t 
 struct Diagnoses {
   /// Log-evidence by bridge sampling, over the runs.
   statistics::Moments log_evidence;
-  /// Standard error of the log-evidence of a run: root mean square of the errors that the runs state.
+  /// Standard error of the log-evidence of a run: root mean square of the errors that the runs
+  /// state.
   double standard_error;
   /// Smallest effective sample size of any parameter and run.
   double smallest_effective_size;

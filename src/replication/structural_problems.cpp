@@ -16,8 +16,8 @@ using detail::by_rows;
 using detail::log_normal_density;
 using Panel = boost::math::quadrature::gauss<double, 30>;
 
-// Rigs that were seen while the settings of the independent draws were chosen, or the cause of their
-// warnings was investigated.
+// Rigs that were seen while the settings of the independent draws were chosen, or the cause of
+// their warnings was investigated.
 constexpr std::array rigs_seen{1, 2, 3, 10, 14, 20};
 constexpr double frame_mass_1 = 16.5e3;       // kg
 constexpr double frame_mass_2 = 16.1e3;       // kg
@@ -39,8 +39,8 @@ double integral(Function function, double low, double high, int panels) {
   return sum;
 }
 
-/// Squares of the frequencies of a frame whose stiffnesses are theta times the nominal one, divided by the
-/// measured squares.
+/// Squares of the frequencies of a frame whose stiffnesses are theta times the nominal one, divided
+/// by the measured squares.
 struct SquaredRatios {
   double first;
   double second;
@@ -51,9 +51,9 @@ SquaredRatios squared_ratios(const double* theta) {
   return {square(f.first / first_frequency), square(f.second / second_frequency)};
 }
 
-/// Area of theta_1 and theta_2 per area of the squared ratios, at one of the two solutions: the solutions
-/// have the same product and the same sum u + v of u = m_2 k_1 and v = (m_1 + m_2) k_2, so that u and v are
-/// exchanged.
+/// Area of theta_1 and theta_2 per area of the squared ratios, at one of the two solutions: the
+/// solutions have the same product and the same sum u + v of u = m_2 k_1 and v = (m_1 + m_2) k_2,
+/// so that u and v are exchanged.
 double area_per_squared_ratios(double first, double second) {
   constexpr double two_pi = boost::math::constants::two_pi<double>();
   const double measured_1 = square(two_pi * first_frequency);
@@ -66,7 +66,8 @@ double area_per_squared_ratios(double first, double second) {
          difference * measured_1 * measured_2 / square(nominal_stiffness);
 }
 
-/// Mean of area_per_squared_ratios over independent normals about `centre` with standard deviation sd.
+/// Mean of area_per_squared_ratios over independent normals about `centre` with standard deviation
+/// sd.
 double mean_area(double sd, SquaredRatios centre) {
   const auto density = [](double z) { return std::exp(log_normal_density(z, 1.0)); };
   return integral(
@@ -129,8 +130,8 @@ BenchmarkProblem frame_with_precise_data() {
   for (int k = 0; k < repetitions; ++k) {
     squares += square(measured_1[k] - mean.first) + square(measured_2[k] - mean.second);
   }
-  // At a given noise level the squared ratios are normal about their means, times a factor for the scatter
-  // of the measurements.
+  // At a given noise level the squared ratios are normal about their means, times a factor for the
+  // scatter of the measurements.
   const double total = integral(
       [=](double log_noise) {
         const double noise = std::exp(log_noise);
@@ -149,7 +150,8 @@ BenchmarkProblem frame_with_precise_data() {
       .mode_masses = {0.5, 0.5}};
 }
 
-/// Mean mu on (-30, 50), spread tau on (0, 40), standardised effects on (-8, 8) with standard normal densities.
+/// Mean mu on (-30, 50), spread tau on (0, 40), standardised effects on (-8, 8) with standard
+/// normal densities.
 BenchmarkProblem eight_schools() {
   constexpr int schools = 8;
   constexpr double effect[schools] = {28, 8, -3, 7, -1, 1, 18, 12};

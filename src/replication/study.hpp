@@ -1,5 +1,6 @@
 /// \file
-/// A study: R independent runs of each sampler on one problem, and the statistics that the paper reports.
+/// A study: R independent runs of each sampler on one problem, and the statistics that the paper
+/// reports.
 #pragma once
 
 #include <functional>
@@ -16,10 +17,14 @@ using statistics::moments;
 
 /// Size of a study and its random streams.
 struct StudyOptions {
-  tmcmc::Index runs = 50;   ///< R, runs per sampler (Section 4 of the paper)
-  std::uint64_t seed = 1;   ///< seed of the random streams
-  std::uint32_t study = 0;  ///< number of the study among its replications
-  int threads = 1;          ///< threads over the runs
+  /// R, runs per sampler (Section 4 of the paper).
+  tmcmc::Index runs = 50;
+  /// Seed of the random streams.
+  std::uint64_t seed = 1;
+  /// Number of the study among its replications.
+  std::uint32_t study = 0;
+  /// Threads over the runs.
+  int threads = 1;
 
   /// \throws errors::InvalidValue naming field, value and constraint.
   void validate() const;
@@ -27,9 +32,12 @@ struct StudyOptions {
 
 /// One run: final samples, records of the stages, and moments.
 struct Run {
-  tmcmc::Result result;                ///< as the sampler returned it; samples may be weighted
-  Eigen::VectorXd mean;                ///< of the final samples, one entry per parameter
-  Eigen::VectorXd standard_deviation;  ///< of the final samples (N - 1)
+  /// As the sampler returned it; samples may be weighted.
+  tmcmc::Result result;
+  /// Of the final samples, one entry per parameter.
+  Eigen::VectorXd mean;
+  /// Of the final samples (N - 1).
+  Eigen::VectorXd standard_deviation;
 
   /// Number of stages, which Table 4 counts.
   [[nodiscard]] tmcmc::Index iterations() const { return static_cast<tmcmc::Index>(result.stages.size()); }

@@ -40,8 +40,8 @@ struct PrintedTables {
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] std::vector<StudySummary> read_studies(const std::string& path, const PrintedTables& printed);
 
-/// The null distribution for the two printed samplers: the studies of both samplers if they are equivalent.
-/// The bootstrap used for that decision has its own fixed seed.
+/// The null distribution for the two printed samplers: the studies of both samplers if they are
+/// equivalent. The bootstrap used for that decision has its own fixed seed.
 /// \throws io::InputError unless exactly two samplers are printed.
 [[nodiscard]] Null null_of(const std::vector<StudySummary>& studies, const PrintedTables& printed);
 

@@ -14,9 +14,9 @@ using Counts = std::map<std::int64_t, std::int64_t>;
 /// Sum of the counts over all categories.
 [[nodiscard]] std::int64_t total_of(const Counts& counts);
 
-/// Category probabilities of pooled counts, with half a count added to each category of `categories` and to
-/// each category that occurs, so that no probability is 0 (Jeffreys' prior, as in Krichevsky and Trofimov
-/// 1981).
+/// Category probabilities of pooled counts, with half a count added to each category of
+/// `categories` and to each category that occurs, so that no probability is 0 (Jeffreys' prior, as
+/// in Krichevsky and Trofimov 1981).
 [[nodiscard]] std::map<std::int64_t, double> category_probabilities(const std::vector<Counts>& pooled,
                                                                     const Counts& categories);
 

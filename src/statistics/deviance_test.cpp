@@ -73,8 +73,8 @@ struct Multinomial {
   }
 };
 
-/// Tables that were drawn or printed, reduced to the sums from which the deviance and the probability are
-/// computed.
+/// Tables that were drawn or printed, reduced to the sums from which the deviance and the
+/// probability are computed.
 struct Drawn {
   std::vector<Row> total;  // of the tables of each source
   double fixed = 0.0;      // the part of the deviance that no probability enters
@@ -84,8 +84,8 @@ enum class Against { given_probabilities, each_other };
 
 class DevianceNull {
  public:
-  /// A source is the distribution from which tables are drawn; either each table has its own source, or all
-  /// share one.
+  /// A source is the distribution from which tables are drawn; either each table has its own
+  /// source, or all share one.
   DevianceNull(const std::vector<Counts>& printed, const std::vector<std::vector<Counts>>& replicated,
                Against against, const TableDraws& options)
       : options_(options), against_(against) {
@@ -204,7 +204,8 @@ class DevianceNull {
            (against_ == Against::each_other ? drawn.fixed : drawn.fixed - log_kernel(drawn, probabilities));
   }
 
-  /// The p-value under other probabilities: each table is weighted by the ratio of its probabilities.
+  /// The p-value under other probabilities: each table is weighted by the ratio of its
+  /// probabilities.
   [[nodiscard]] double p_under(const std::vector<Multinomial>& probabilities) const {
     const double statistic = deviance_of(printed_, probabilities);
     double tail = 0.0;

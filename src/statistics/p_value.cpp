@@ -72,8 +72,8 @@ RatioTest test_ratio_of_equals(std::vector<double> sample, double ratio) {
                                "at least two numbers in the sample, and all positive");
   }
   const auto n = static_cast<double>(sample.size());
-  // The shares of the other numbers that are at least r times x_i, and of the numbers of which x_i is at
-  // least r times the value.
+  // The shares of the other numbers that are at least r times x_i, and of the numbers of which x_i
+  // is at least r times the value.
   const auto shares = [&](double r) {
     std::vector<double> of_each;
     for (const double x : sample) {

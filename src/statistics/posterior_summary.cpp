@@ -27,7 +27,8 @@ std::vector<std::pair<double, double>> weighted_values(const std::vector<tmcmc::
   return values;
 }
 
-/// Quantile, linearly interpolated between the middles of the steps of the weighted distribution function.
+/// Quantile, linearly interpolated between the middles of the steps of the weighted distribution
+/// function.
 double quantile(const std::vector<std::pair<double, double>>& values, double p) {
   double below = 0.0, last_level = 0.0, last = values.front().first;
   for (const auto& [x, weight] : values) {

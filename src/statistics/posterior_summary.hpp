@@ -25,7 +25,8 @@ struct ParameterSummary {
   double quantile_5 = 0.0, median = 0.0, quantile_95 = 0.0;
   /// Effective sample size, summed over the runs.
   double effective_sample_size = 0.0;
-  /// R-hat of Gelman and Rubin (1992), with runs as chains and effective samples as draws; NaN for one run.
+  /// R-hat of Gelman and Rubin (1992), with runs as chains and effective samples as draws; NaN for
+  /// one run.
   double r_hat = 0.0;
 };
 
@@ -34,17 +35,17 @@ struct ParameterSummary {
 [[nodiscard]] std::vector<ParameterSummary> summarise(const std::vector<tmcmc::Result>& runs,
                                                       const tmcmc::Prior& prior);
 
-/// The log-evidence from all runs: their mean, with a standard error from the errors of the runs or from the
-/// scatter between the runs, whichever is larger.
+/// The log-evidence from all runs: their mean, with a standard error from the errors of the runs or
+/// from the scatter between the runs, whichever is larger.
 [[nodiscard]] tmcmc::Evidence mean_evidence(const std::vector<tmcmc::Result>& runs);
 
-/// Rows of a run that represent its posterior with equal weights: evenly spaced in the cumulative weight,
-/// ascending.
+/// Rows of a run that represent its posterior with equal weights: evenly spaced in the cumulative
+/// weight, ascending.
 /// \param draws  at least 1
 [[nodiscard]] std::vector<tmcmc::Index> equal_rows(const tmcmc::Result& run, tmcmc::Index draws);
 
-/// The number of equally weighted draws to which the samples of a run are equivalent: all of them if the
-/// weights are equal.
+/// The number of equally weighted draws to which the samples of a run are equivalent: all of them
+/// if the weights are equal.
 [[nodiscard]] tmcmc::Index equal_draws(const tmcmc::Result& run);
 
 }  // namespace statistics

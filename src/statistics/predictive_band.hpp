@@ -8,26 +8,31 @@
 
 namespace statistics {
 
-/// Prediction of a measurement y = m(theta) + sigma(theta) z, z standard normal, under the posterior of
-/// theta.
+/// Prediction of a measurement y = m(theta) + sigma(theta) z, z standard normal, under the
+/// posterior of theta.
 struct PredictiveBand {
-  double median = 0.0;              ///< median of the model output m
-  Interval95 model{};               ///< central 95 % of m: the uncertainty of the parameters alone
-  Interval95 measurement{};         ///< central 95 % of a new y: including the noise
-  double standard_deviation = 0.0;  ///< of a new y: sqrt(var m + mean sigma^2), var m with 1/N
-  double probability_below = 0.0;   ///< P(new y < observed), from 0 to 1
+  /// Median of the model output m.
+  double median = 0.0;
+  /// Central 95 % of m: the uncertainty of the parameters alone.
+  Interval95 model{};
+  /// Central 95 % of a new y: including the noise.
+  Interval95 measurement{};
+  /// Of a new y: sqrt(var m + mean sigma^2), var m with 1/N.
+  double standard_deviation = 0.0;
+  /// P(new y < observed), from 0 to 1.
+  double probability_below = 0.0;
 };
 
-/// The band computed from draws of the posterior. Median and interval of the model are interpolated linearly
-/// between the order statistics of its outputs; the distribution of y is the mean of the normal
-/// distributions of the draws, (1/N) sum Phi((y - m_i) / sigma_i), so that no error is drawn at random. The
-/// probability applies to a measurement that has not been used in the inference: for one that has, it lies
-/// closer to 1/2.
+/// The band computed from draws of the posterior. Median and interval of the model are interpolated
+/// linearly between the order statistics of its outputs; the distribution of y is the mean of the
+/// normal distributions of the draws, (1/N) sum Phi((y - m_i) / sigma_i), so that no error is drawn
+/// at random. The probability applies to a measurement that has not been used in the inference: for
+/// one that has, it lies closer to 1/2.
 /// \param outputs  outputs m_i of the model at N equally weighted draws, at least one
 /// \param noise  sigma_i at the same draws, positive
 /// \param observed  the measurement, in the unit of the outputs
-/// \throws errors::InvalidValue if there is no draw, if the number of sigma_i differs, if a number is not
-///         finite, or if sigma_i <= 0.
+/// \throws errors::InvalidValue if there is no draw, if the number of sigma_i differs, if a number
+///         is not finite, or if sigma_i <= 0.
 [[nodiscard]] PredictiveBand predictive_band(std::span<const double> outputs, std::span<const double> noise,
                                              double observed);
 

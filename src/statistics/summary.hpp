@@ -17,8 +17,8 @@ struct Moments {
 /// \throws errors::InvalidValue if there is no value.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
-/// Moments of weighted values: mean sum(w x) / W with W = sum(w), variance sum(w (x - mean)^2) / (W -
-/// sum(w^2) / W). Equal weights give moments() of the values bit for bit.
+/// Moments of weighted values: mean sum(w x) / W with W = sum(w), variance sum(w (x - mean)^2) / (W
+/// - sum(w^2) / W). Equal weights give moments() of the values bit for bit.
 /// \param weights  one per value, not negative
 /// \throws errors::InvalidValue if the number of weights differs, or if none is positive.
 [[nodiscard]] Moments moments(std::span<const double> values, std::span<const double> weights);
@@ -34,7 +34,8 @@ struct Interval95 {
   double high;
 };
 
-/// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan 1996).
+/// Quantile of a sample by linear interpolation of the order statistics (type 7 of Hyndman and Fan
+/// 1996).
 /// \param sorted  ascending, not empty
 /// \param p  in [0, 1]
 [[nodiscard]] double sample_quantile(std::span<const double> sorted, double p);
@@ -42,7 +43,8 @@ struct Interval95 {
 /// Central 95 % interval of the draws.
 [[nodiscard]] Interval95 central_95(std::vector<double> null);
 
-/// Errors of the estimates of independent runs relative to the exact value, in the unit of the estimates.
+/// Errors of the estimates of independent runs relative to the exact value, in the unit of the
+/// estimates.
 struct EstimateError {
   /// Mean of the estimates.
   double mean;
@@ -63,8 +65,8 @@ struct EstimateError {
 /// \throws errors::InvalidValue for fewer points.
 [[nodiscard]] std::vector<double> evenly_spaced(double low, double high, long points);
 
-/// Number of values in each of equal bins from `low` to `high`; the lower end of a bin belongs to it, and
-/// values outside the range are not counted.
+/// Number of values in each of equal bins from `low` to `high`; the lower end of a bin belongs to
+/// it, and values outside the range are not counted.
 /// \throws errors::InvalidValue unless low < high and there is a bin.
 [[nodiscard]] std::vector<long> histogram(std::span<const double> values, double low, double high, long bins);
 

@@ -25,8 +25,8 @@ namespace {
 
 using tmcmc::Index;
 
-/// Beginning of the file: this line, then the checksum of the rest, and the rest in cereal's portable binary
-/// form.
+/// Beginning of the file: this line, then the checksum of the rest, and the rest in cereal's
+/// portable binary form.
 constexpr std::string_view first_line = "tmcmc checkpoint 3\n";
 constexpr std::size_t checksum_size = 9;  // eight hexadecimal digits and a line end
 constexpr std::string_view start_again = "(delete it to start again)";
@@ -54,7 +54,8 @@ void transfer_matrix(Archive& archive, Matrix& matrix) {
   archive(cereal::binary_data(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double)));
 }
 
-/// Every field by name: a field that is added to the record does not compile until it is listed here.
+/// Every field by name: a field that is added to the record does not compile until it is listed
+/// here.
 template <class Archive>
 void transfer_stage(Archive& archive, tmcmc::StageRecord& record) {
   auto& [stage, beta, step, effective_sample_size, coefficient_of_variation, log_evidence_increment,
@@ -117,8 +118,8 @@ std::string checked(const std::string& text, const std::filesystem::path& path) 
   return body;
 }
 
-/// Settings do not show everything of which a model consists, such as the modules that a program imports:
-/// therefore a few samples are evaluated again.
+/// Settings do not show everything of which a model consists, such as the modules that a program
+/// imports: therefore a few samples are evaluated again.
 void require_same_model(const std::filesystem::path& path, const tmcmc::LogLikelihood& log_likelihood,
                         const tmcmc::State& state) {
   const Index rows = state.points.rows();

@@ -11,10 +11,11 @@
 ///     observed_data   what was measured, (observation)
 ///     constant_data   what else the likelihood knows of each measurement, (observation)
 ///
-/// The last three groups are present if the model provides them. The attribute data_checksum is a CRC-64 of
-/// the numbers in observed_data, for read_evidence(). A run is one chain: the samples of its population are
-/// exchangeable, and only the sampler knows their effective sample size (attributes
-/// effective_sample_size_NAME). The file holds no time stamp: the same results give the same bytes.
+/// The last three groups are present if the model provides them. The attribute data_checksum is a
+/// CRC-64 of the numbers in observed_data, for read_evidence(). A run is one chain: the samples of
+/// its population are exchangeable, and only the sampler knows their effective sample size
+/// (attributes effective_sample_size_NAME). The file holds no time stamp: the same results give the
+/// same bytes.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,8 +34,8 @@ using Column = std::pair<std::string, std::vector<double>>;
 struct InferenceData {
   /// Names of the d parameters.
   std::vector<std::string> parameter_names = {};
-  /// Units of the parameters, the attribute `units` of each variable; an empty text for no unit, an empty
-  /// list if none has a unit.
+  /// Units of the parameters, the attribute `units` of each variable; an empty text for no unit, an
+  /// empty list if none has a unit.
   std::vector<std::string> parameter_units = {};
   /// Samples, n x d, chain by chain.
   Eigen::MatrixXd samples = {};
@@ -44,12 +45,13 @@ struct InferenceData {
   Eigen::VectorXd log_likelihood = {};
   /// Columns of equal length, the number of stages.
   std::vector<Column> stages = {};
-  /// Columns of equal length, the number of observations; none if the likelihood is not based on known
-  /// observations.
+  /// Columns of equal length, the number of observations; none if the likelihood is not based on
+  /// known observations.
   std::vector<Column> observed = {};
   /// Columns of the same length as observed.
   std::vector<Column> constant = {};
-  /// Log-likelihoods of single observations under the name of an observed variable, n x observations each.
+  /// Log-likelihoods of single observations under the name of an observed variable, n x
+  /// observations each.
   std::vector<std::pair<std::string, Eigen::MatrixXd>> pointwise_log_likelihood = {};
   /// Numeric attributes, such as log_evidence.
   std::vector<std::pair<std::string, double>> numbers = {};
@@ -62,7 +64,8 @@ struct InferenceData {
 void require_parameter_name(const std::string& name);
 
 /// Writes the whole file to an output that the caller has opened, and commits it.
-/// \throws io::OutputError; errors::InvalidValue for lengths that do not agree or names that NetCDF refuses.
+/// \throws io::OutputError; errors::InvalidValue for lengths that do not agree or names that NetCDF
+///         refuses.
 void write_inference_data(io::OutputFile& output, const InferenceData& data);
 
 }  // namespace storage

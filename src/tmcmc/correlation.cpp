@@ -18,8 +18,8 @@ constexpr double largest_correlation = 0.9999;  // of normal scores that are loo
 constexpr double largest_score = 9.0;
 constexpr int points_per_unit = 256;
 
-/// Coefficients a_1, a_2, ... of F^-1(Phi(z)) in normalised Hermite polynomials, divided by the standard
-/// deviation.
+/// Coefficients a_1, a_2, ... of F^-1(Phi(z)) in normalised Hermite polynomials, divided by the
+/// standard deviation.
 std::vector<double> hermite_coefficients(const Marginal& marginal) {
   if (!marginal.has_variance()) {
     throw errors::InvalidValue(

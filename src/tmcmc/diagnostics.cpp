@@ -74,8 +74,8 @@ double normal_score(double t, double degrees_of_freedom) {
                        t);
 }
 
-/// Checks for a drift of the log-likelihood along the chains. By chance both bounds together are exceeded in
-/// less than 1 % of runs.
+/// Checks for a drift of the log-likelihood along the chains. By chance both bounds together are
+/// exceeded in less than 1 % of runs.
 void check_equilibrium(const Result& result, const Options& options, Warnings& warnings) {
   constexpr double most_in_a_stage = 4.5;
   constexpr double most_in_all = 3.0;

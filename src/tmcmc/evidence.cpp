@@ -37,8 +37,8 @@ struct LogisticSums {
   double slope;
 };
 
-/// If a population has nothing in common with the other, both sums are set to the smallest number, as in the
-/// limit.
+/// If a population has nothing in common with the other, both sums are set to the smallest number,
+/// as in the limit.
 PORTABLE_MATH_MULTIVERSION
 LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign, double centre) {
   const double total =
@@ -50,8 +50,8 @@ LogisticSums logistic_sums(const double* log_weights, std::size_t n, double sign
   return total > smallest_sum ? LogisticSums{total, slope} : LogisticSums{smallest_sum, smallest_sum};
 }
 
-/// Lower limit of the centre: at log(m / (feasible - m)) below the smallest finite log-weight, the logistic
-/// sum over both populations is at least m.
+/// Lower limit of the centre: at log(m / (feasible - m)) below the smallest finite log-weight, the
+/// logistic sum over both populations is at least m.
 double least_centre(const std::vector<double>& before, const std::vector<double>& after) {
   double least = 0.0;
   double feasible = 0.0;
@@ -65,13 +65,16 @@ double least_centre(const std::vector<double>& before, const std::vector<double>
   return least - std::max(portable_math::log(m / (feasible - m)), 0.0);
 }
 
-/// Solution of the bridge equation: the centre of the logistic functions at which their sums over both
-/// populations are equal.
+/// Solution of the bridge equation: the centre of the logistic functions at which their sums over
+/// both populations are equal.
 struct Bridge {
   double centre;
-  double log_size_ratio;  ///< log(m / n); the log-ratio of the evidences is the centre plus this
-  double overlap;         ///< sum of the logistic functions over either population
-  double slope;           ///< by which a relative error of either sum is divided in the log-ratio
+  /// log(m / n); the log-ratio of the evidences is the centre plus this.
+  double log_size_ratio;
+  /// Sum of the logistic functions over either population.
+  double overlap;
+  /// By which a relative error of either sum is divided in the log-ratio.
+  double slope;
 };
 
 Bridge solve_bridge(const std::vector<double>& before, const std::vector<double>& after) {

@@ -1,6 +1,6 @@
 /// \file
-/// The representation of the posterior once it has been found: the last population of TMCMC, or independent
-/// draws from a density that was fitted to it.
+/// The representation of the posterior once it has been found: the last population of TMCMC, or
+/// independent draws from a density that was fitted to it.
 #pragma once
 
 #include <string_view>
@@ -17,38 +17,38 @@ struct NoFinish {
   static constexpr std::string_view name = "none";
 };
 
-/// The posterior is measured by independent weighted draws, at a total cost of Options::evaluation_budget
-/// log-likelihoods:
+/// The posterior is measured by independent weighted draws, at a total cost of
+/// Options::evaluation_budget log-likelihoods:
 ///
 /// 1. Two independent searches by tempered population Monte Carlo (search_posterior()):
-///    Options::criterion chooses beta for the draws so far, a mixture of Student t distributions is fitted to
-///    them and drawn from, and so on from the prior to beta = 1. With N_eff = f N the population N is a
-///    twentieth of the evaluations of a search beyond the first 600, at most 200 draws or 40 d, whichever is
-///    more; CoV = c is f = 1 / (1 + c^2), the same rule. There is a new fit after each N/2 draws, but after
-///    no fewer than min(N, 100).
-/// 2. One density q is fitted to the draws of both searches. Defensive shares of the prior, of the tempered
-///    fits and of wider components keep the weights bounded where the fit is too narrow. Trial draws, a sixth
-///    of the remaining evaluations, show whether q overlaps with the posterior; if not, they are used for
-///    another fit.
-/// 3. q is frozen, and the remaining evaluations are independent draws from it. With weights w = L p / q the
-///    log-evidence is log(mean w). These draws include none that was used for a fit, so that the mean weight
-///    is unbiased and its error is that of independent weights (except for the trial draws, which influenced
-///    the decision to go on). If the effective number of these draws is below four, the fit has failed: then
-///    all draws of searches and fits are used, weighted by the mixture of their densities
-///    (WarningKind::low_overlap).
+///    Options::criterion chooses beta for the draws so far, a mixture of Student t distributions is
+///    fitted to them and drawn from, and so on from the prior to beta = 1. With N_eff = f N the
+///    population N is a twentieth of the evaluations of a search beyond the first 600, at most 200
+///    draws or 40 d, whichever is more; CoV = c is f = 1 / (1 + c^2), the same rule. There is a new
+///    fit after each N/2 draws, but after no fewer than min(N, 100).
+/// 2. One density q is fitted to the draws of both searches. Defensive shares of the prior, of the
+///    tempered fits and of wider components keep the weights bounded where the fit is too narrow.
+///    Trial draws, a sixth of the remaining evaluations, show whether q overlaps with the
+///    posterior; if not, they are used for another fit.
+/// 3. q is frozen, and the remaining evaluations are independent draws from it. With weights w = L
+///    p / q the log-evidence is log(mean w). These draws include none that was used for a fit, so
+///    that the mean weight is unbiased and its error is that of independent weights (except for the
+///    trial draws, which influenced the decision to go on). If the effective number of these draws
+///    is below four, the fit has failed: then all draws of searches and fits are used, weighted by
+///    the mixture of their densities (WarningKind::low_overlap).
 ///
-/// A mode that both searches have missed leaves no trace. The draws of each search alone are therefore
-/// compared with the final draws: if one search missed a part m_1 of the posterior and the other a part m_2,
-/// this suggests that both have missed about m_1 m_2, as in capture and recapture
-/// (WarningKind::searches_differ). Modes are lost if beta is chosen from few effective draws
-/// (WarningKind::few_draws_a_mode). If neither search comes near the posterior, TMCMC with the other options
-/// uses the remaining evaluations (WarningKind::search_not_completed).
+/// A mode that both searches have missed leaves no trace. The draws of each search alone are
+/// therefore compared with the final draws: if one search missed a part m_1 of the posterior and
+/// the other a part m_2, this suggests that both have missed about m_1 m_2, as in capture and
+/// recapture (WarningKind::searches_differ). Modes are lost if beta is chosen from few effective
+/// draws (WarningKind::few_draws_a_mode). If neither search comes near the posterior, TMCMC with
+/// the other options uses the remaining evaluations (WarningKind::search_not_completed).
 struct IndependentDraws {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "independent";
 
-  /// Share of the evaluations for the two searches together; they get 1300 evaluations in addition, but
-  /// never more than 0.64 of the budget.
+  /// Share of the evaluations for the two searches together; they get 1300 evaluations in addition,
+  /// but never more than 0.64 of the budget.
   double search_share = 0.28;
   /// Effective share of the trial draws below which the fit is improved.
   double least_effective_share = 0.25;
@@ -56,8 +56,8 @@ struct IndependentDraws {
   double prior_share = 0.02;
   /// Share of the draws that come from the searches' fits at beta below 0.3.
   double tempered_share = 0.05;
-  /// Share of the draws that come from wider components, see StudentMixture::wide_share; half as much again
-  /// in the searches.
+  /// Share of the draws that come from wider components, see StudentMixture::wide_share; half as
+  /// much again in the searches.
   double wide_share = 0.1;
   /// Settings for the fits of the densities.
   MixtureFitOptions fit = {};

@@ -15,7 +15,8 @@ namespace tmcmc {
 
 namespace {
 
-/// Mean of log(1 - theta x): the shape of a generalised Pareto distribution given theta = -shape / scale.
+/// Mean of log(1 - theta x): the shape of a generalised Pareto distribution given theta = -shape /
+/// scale.
 double mean_log_term(const std::vector<double>& x, double theta) {
   return portable_math::sum_of(x.size(),
                                [&](std::size_t i) { return portable_math::log(1.0 - theta * x[i]); }) /

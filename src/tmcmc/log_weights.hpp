@@ -1,7 +1,8 @@
 /// \file
-/// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), computed from log-likelihoods. The
-/// log-weights are always shifted by the largest, so that a constant added to the log-likelihood changes
-/// only the log-mean. Sums run over blocks of a fixed size; `threads` changes no result.
+/// Importance weights w_i = L_i^dbeta of a tempering step (Eq. 4), computed from log-likelihoods.
+/// The log-weights are always shifted by the largest, so that a constant added to the
+/// log-likelihood changes only the log-mean. Sums run over blocks of a fixed size; `threads`
+/// changes no result.
 #pragma once
 
 #include <array>
@@ -41,14 +42,14 @@ constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Co
 /// \param step  dbeta > 0
 [[nodiscard]] double effective_sample_size(ConstDoubles log_likelihood, double step);
 
-/// Coefficient of variation std(w) / mean(w) (Eq. 6), computed from the deviations from the mean. NaN if no
-/// sample is counted, and with Deviation::sample if only one is.
+/// Coefficient of variation std(w) / mean(w) (Eq. 6), computed from the deviations from the mean.
+/// NaN if no sample is counted, and with Deviation::sample if only one is.
 [[nodiscard]] double coefficient_of_variation(ConstDoubles log_likelihood, double step,
                                               Deviation deviation = Deviation::population,
                                               Counted counted = Counted::all);
 
-/// Both of the above for a search over many steps; each call evaluates the weights once and does not store
-/// them.
+/// Both of the above for a search over many steps; each call evaluates the weights once and does
+/// not store them.
 class WeightStatistics {
  public:
   /// \param log_likelihood  non-owning view, which must outlive this object

@@ -17,21 +17,24 @@ class MarginalFamily;
 
 /// The interval outside which a density is zero.
 struct Support {
-  double lower = -std::numeric_limits<double>::infinity();  ///< minus infinity if there is no lower bound
-  double upper = std::numeric_limits<double>::infinity();   ///< infinity if there is no upper bound
+  /// Minus infinity if there is no lower bound.
+  double lower = -std::numeric_limits<double>::infinity();
+  /// Infinity if there is no upper bound.
+  double upper = std::numeric_limits<double>::infinity();
 };
 
-/// A continuous distribution on the real line, as an immutable value: its name, its arguments and its
-/// support. Each static function makes one distribution; distributions() lists them with the names of their
-/// arguments, for files and messages.
+/// A continuous distribution on the real line, as an immutable value: its name, its arguments and
+/// its support. Each static function makes one distribution; distributions() lists them with the
+/// names of their arguments, for files and messages.
 ///
-/// The quantiles of the uniform, log-uniform, normal, half-normal, log-normal, exponential, Weibull, Gumbel
-/// and triangular distributions are bit-identical on every machine (portable()). The quantiles of the
-/// truncated normal, gamma, inverse gamma, beta and Student t distributions come from Boost.Math, whose last
-/// bits depend on the C library: they agree to about 1e-14, relative.
-/// \throws errors::InvalidValue from each of the static functions, with the argument as field, if the
-///         argument is not finite or not in the range that the function's comment states (arguments named
-///         sd, rate, shape, scale or sigma must be positive).
+/// The quantiles of the uniform, log-uniform, normal, half-normal, log-normal, exponential,
+/// Weibull, Gumbel and triangular distributions are bit-identical on every machine (portable()).
+/// The quantiles of the truncated normal, gamma, inverse gamma, beta and Student t distributions
+/// come from Boost.Math, whose last bits depend on the C library: they agree to about 1e-14,
+/// relative.
+/// \throws errors::InvalidValue from each of the static functions, with the argument as field, if
+///         the argument is not finite or not in the range that the function's comment states
+///         (arguments named sd, rate, shape, scale or sigma must be positive).
 class Marginal {
  public:
   /// Density 1 / (upper - lower) on [lower, upper]; lower < upper, with doubles between them.
@@ -40,8 +43,8 @@ class Marginal {
   [[nodiscard]] static Marginal log_uniform(double lower, double upper);
   /// The normal distribution with this mean and standard deviation.
   [[nodiscard]] static Marginal normal(double mean, double sd);
-  /// The normal distribution with parameters mean and sd, truncated to [lower, upper] and normalised there;
-  /// either bound may be infinite.
+  /// The normal distribution with parameters mean and sd, truncated to [lower, upper] and
+  /// normalised there; either bound may be infinite.
   [[nodiscard]] static Marginal truncated_normal(double mean, double sd, double lower, double upper);
   /// |X| with X normal of mean zero and standard deviation sd.
   [[nodiscard]] static Marginal half_normal(double sd);
@@ -49,7 +52,8 @@ class Marginal {
   [[nodiscard]] static Marginal log_normal(double mu, double sigma);
   /// The log-normal distribution that itself has this mean (positive) and standard deviation.
   [[nodiscard]] static Marginal log_normal_of_mean(double mean, double sd);
-  /// The log-normal distribution with this median (positive) and coefficient of variation, sd / mean.
+  /// The log-normal distribution with this median (positive) and coefficient of variation, sd /
+  /// mean.
   [[nodiscard]] static Marginal log_normal_of_median(double median, double cov);
   /// Density rate exp(-rate x) for x >= 0.
   [[nodiscard]] static Marginal exponential(double rate);
@@ -58,7 +62,8 @@ class Marginal {
   /// 1 / X with X distributed as gamma(shape, rate = scale): density proportional to x^(-shape - 1)
   /// exp(-scale / x).
   [[nodiscard]] static Marginal inverse_gamma(double shape, double scale);
-  /// Density proportional to (x - lower)^(alpha - 1) (upper - x)^(beta - 1) on (lower, upper); alpha and beta positive.
+  /// Density proportional to (x - lower)^(alpha - 1) (upper - x)^(beta - 1) on (lower, upper);
+  /// alpha and beta positive.
   [[nodiscard]] static Marginal beta(double alpha, double beta, double lower = 0.0, double upper = 1.0);
   /// P(X > x) = exp(-(x / scale)^shape) for x >= 0.
   [[nodiscard]] static Marginal weibull(double shape, double scale);
@@ -66,7 +71,8 @@ class Marginal {
   [[nodiscard]] static Marginal gumbel(double location, double scale);
   /// location + scale T with T of Student's t distribution; degrees_of_freedom positive.
   [[nodiscard]] static Marginal student_t(double degrees_of_freedom, double location, double scale);
-  /// Density that rises linearly from lower to mode and falls to upper; lower <= mode <= upper, lower < upper.
+  /// Density that rises linearly from lower to mode and falls to upper; lower <= mode <= upper,
+  /// lower < upper.
   [[nodiscard]] static Marginal triangular(double lower, double mode, double upper);
 
   /// Name of the distribution, as in distributions().
@@ -91,8 +97,8 @@ class Marginal {
   [[nodiscard]] double complement(double x) const;
   /// x with P(X <= x) = p, p in [0, 1].
   [[nodiscard]] double quantile(double p) const;
-  /// Phi^-1(F(x)), where F is the distribution function of the marginal and Phi that of the standard normal
-  /// distribution.
+  /// Phi^-1(F(x)), where F is the distribution function of the marginal and Phi that of the
+  /// standard normal distribution.
   [[nodiscard]] double normal_score(double x) const;
   /// normal_score() of n points; infinite on a bound and NaN outside the support.
   void normal_scores(const double* x, std::size_t n, double* scores) const;
@@ -109,7 +115,8 @@ class Marginal {
   Marginal(std::string_view name, std::vector<double> arguments,
            std::shared_ptr<const detail::MarginalFamily> family);
 
-  std::string_view name_;  // a literal
+  // a literal
+  std::string_view name_;
   std::vector<double> arguments_;
   Support support_;
   std::shared_ptr<const detail::MarginalFamily> family_;

@@ -45,8 +45,8 @@ void add_kernel(const Normal& family, const double* x, std::size_t n, double* su
   detail::add_each(family, x, n, sum);
 }
 
-/// Where the interval lies to the right of the mean, everything is computed for -X, so that differences are
-/// between small numbers.
+/// Where the interval lies to the right of the mean, everything is computed for -X, so that
+/// differences are between small numbers.
 struct TruncatedNormal final : detail::FamilyOf<TruncatedNormal> {
   TruncatedNormal(double m, double s, Support cut)
       : sign(cut.lower > m ? -1.0 : 1.0), mean(m), sd(s), interval(cut) {

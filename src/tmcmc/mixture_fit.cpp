@@ -20,7 +20,8 @@ using detail::weighted_mean;
 
 namespace {
 
-/// unit = weight / density; the part of a point assigned to a component is unit times the component's term.
+/// unit = weight / density; the part of a point assigned to a component is unit times the
+/// component's term.
 PORTABLE_MATH_MULTIVERSION
 void share_weights(Index rows, const double* weights, const double* sum, double* unit) {
   for (Index i = 0; i < rows; ++i) {
@@ -47,7 +48,8 @@ class Fit {
     mean_ = weighted_mean(data.points, as_span(data.weights), total_);
     covariance_ = proposal_covariance(data.points, as_span(data.weights), total_, 1.0, Centre::weighted_mean);
     for (Index j = 0; j < d_; ++j) {
-      // A coordinate without variance gets a small one, as does every other coordinate, beyond its rounding.
+      // A coordinate without variance gets a small one, as does every other coordinate, beyond its
+      // rounding.
       covariance_(j, j) += 1e-6 * covariance_(j, j) + 1e-12;
     }
   }

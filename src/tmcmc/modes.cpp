@@ -72,8 +72,8 @@ bool is_before(const Population& points, Index a, Index b) {
   return false;
 }
 
-/// Rows that represent all rows: at equal steps of the weight; equal rows occur once, with the weight of all
-/// of them.
+/// Rows that represent all rows: at equal steps of the weight; equal rows occur once, with the
+/// weight of all of them.
 std::vector<std::pair<Index, double>> chosen_rows(const Population& white, const std::vector<double>& weights,
                                                   Index most) {
   std::vector<std::pair<Index, double>> rows;

@@ -10,32 +10,34 @@
 
 namespace tmcmc {
 
-/// Resampling to N starts, then a chain from each, of which only the last state is kept (Ching and Chen
-/// 2007).
+/// Resampling to N starts, then a chain from each, of which only the last state is kept (Ching and
+/// Chen 2007).
 struct ResampleMove {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "resample-move";
 
-  /// Metropolis steps of each chain per stage; with mixing_correlation the smallest number of steps.
+  /// Metropolis steps of each chain per stage; with mixing_correlation the smallest number of
+  /// steps.
   Index steps = 3;
-  /// If positive, a stage continues after `steps` steps until the correlation between the states of the
-  /// chains and their starts is at most this value in every parameter, or until max_steps steps are done. If
-  /// 0, the stage takes `steps` steps.
+  /// If positive, a stage continues after `steps` steps until the correlation between the states of
+  /// the chains and their starts is at most this value in every parameter, or until max_steps steps
+  /// are done. If 0, the stage takes `steps` steps.
   double mixing_correlation = 0.0;
   /// Largest number of steps of a stage that continues.
   Index max_steps = 1000;
 };
 
-/// The paper's wording: N times a chain is picked with probability w_i and its current state is moved by one
-/// step; each updated state is kept. Biased for any N: the probability that a chain is picked k times or
-/// more is not proportional to its weight, so that short chains, which have moved little, count too much.
+/// The paper's wording: N times a chain is picked with probability w_i and its current state is
+/// moved by one step; each updated state is kept. Biased for any N: the probability that a chain is
+/// picked k times or more is not proportional to its weight, so that short chains, which have moved
+/// little, count too much.
 struct GrowingChains {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "growing-chains";
 };
 
-/// Resampling to M starts, then a chain of N/M - 1 steps from each; every state is kept, including the start
-/// (Dau and Chopin 2022). The chains are long, and no evaluation is thrown away.
+/// Resampling to M starts, then a chain of N/M - 1 steps from each; every state is kept, including
+/// the start (Dau and Chopin 2022). The chains are long, and no evaluation is thrown away.
 struct WasteFree {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "waste-free";

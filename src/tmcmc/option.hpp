@@ -1,10 +1,10 @@
 /// \file
 /// Description of one option of the sampler: its name, the values that it accepts, and its purpose.
 ///
-/// The headers that declare options define a function `visit_options`, which calls a visitor with the
-/// description of each option and a pointer to its value. The pointer is null where the option has no
-/// meaning, such as the number of chains of waste-free under another move. option_table.hpp converts these
-/// descriptions to text.
+/// The headers that declare options define a function `visit_options`, which calls a visitor with
+/// the description of each option and a pointer to its value. The pointer is null where the option
+/// has no meaning, such as the number of chains of waste-free under another move. option_table.hpp
+/// converts these descriptions to text.
 #pragma once
 
 #include <string_view>

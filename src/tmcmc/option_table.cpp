@@ -35,7 +35,8 @@ std::string text_of(const T& value) {
   }
 }
 
-/// The alternative with an index, with its defaults unless the variant already holds this alternative.
+/// The alternative with an index, with its defaults unless the variant already holds this
+/// alternative.
 template <std::size_t i = 0, class... Alternatives>
 void hold(std::size_t index, std::variant<Alternatives...>& variant) {
   if constexpr (i < sizeof...(Alternatives)) {

@@ -13,9 +13,9 @@
 
 namespace tmcmc {
 
-/// Calls body(block, begin, end) for each block of at most block_size indices of [0, n), on up to `threads`
-/// threads. If some calls throw, the exception of the lowest block is rethrown after all calls that have
-/// begun have ended; blocks above one that threw may never begin.
+/// Calls body(block, begin, end) for each block of at most block_size indices of [0, n), on up to
+/// `threads` threads. If some calls throw, the exception of the lowest block is rethrown after all
+/// calls that have begun have ended; blocks above one that threw may never begin.
 template <class Body>
 void for_each_block(Index n, Index block_size, int threads, Body body) {
   const Index blocks = (n + block_size - 1) / block_size;
@@ -47,8 +47,8 @@ void for_each_block(Index n, Index block_size, int threads, Body body) {
 /// Rows of one partial sum: few enough for the cache, and more than the runs of the paper have.
 constexpr Index reduction_rows = 4096;
 
-/// Combines the results of body(begin, end) for each block of reduction_rows indices, in the order of the
-/// blocks: the result depends only on n, not on the number of threads.
+/// Combines the results of body(begin, end) for each block of reduction_rows indices, in the order
+/// of the blocks: the result depends only on n, not on the number of threads.
 template <class Body, class Combine>
 auto reduce_blocks(Index n, int threads, Body body, Combine combine) {
   if (n <= reduction_rows) {
@@ -65,8 +65,8 @@ auto reduce_blocks(Index n, int threads, Body body, Combine combine) {
   return partial.front();
 }
 
-/// Number of rows that one call of a log-likelihood gets: an equal share for each thread, at most batch_rows
-/// unless that is 0.
+/// Number of rows that one call of a log-likelihood gets: an equal share for each thread, at most
+/// batch_rows unless that is 0.
 [[nodiscard]] inline Index rows_per_call(Index n, int threads, Index batch_rows) {
   const Index share = (n + threads - 1) / threads;
   return batch_rows > 0 ? std::min(batch_rows, share) : share;

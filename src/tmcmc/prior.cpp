@@ -20,8 +20,8 @@ double inside(double value, double lower, double upper) {
   return std::clamp(value, std::nextafter(lower, detail::infinity), std::nextafter(upper, -detail::infinity));
 }
 
-/// Entry (i, j), j <= i, of the matrix with this Cholesky factor; plain sums, so that the digits are the
-/// same everywhere.
+/// Entry (i, j), j <= i, of the matrix with this Cholesky factor; plain sums, so that the digits
+/// are the same everywhere.
 double correlation_of(const Eigen::MatrixXd& factor, Index i, Index j) {
   double sum = 0.0;
   for (Index k = 0; k <= j; ++k) {

@@ -1,6 +1,6 @@
 /// \file
-/// Prior density of the parameters: independent marginals, a Gaussian copula over them, or a user-defined
-/// density.
+/// Prior density of the parameters: independent marginals, a Gaussian copula over them, or a
+/// user-defined density.
 #pragma once
 
 #include <memory>
@@ -17,39 +17,45 @@ namespace tmcmc {
 
 /// One parameter of a prior.
 struct Parameter {
-  std::string name;   ///< for headers and messages; not empty, unique
-  std::string unit;   ///< such as "N"; empty for none
-  Marginal marginal;  ///< its distribution
+  /// For headers and messages; not empty, unique.
+  std::string name;
+  /// Such as "N"; empty for none.
+  std::string unit;
+  /// Its distribution.
+  Marginal marginal;
 };
 
 /// A user-defined prior, for example a hierarchical model.
 struct OwnPrior {
   /// Name, unit and bounds of a parameter. The density is zero outside the bounds.
   struct OwnParameter {
-    std::string name;       ///< as in Parameter
-    std::string unit = {};  ///< as in Parameter
-    Support support = {};   ///< determines the unbounded coordinate; infinite where there is no bound
+    /// As in Parameter.
+    std::string name;
+    /// As in Parameter.
+    std::string unit = {};
+    /// Determines the unbounded coordinate; infinite where there is no bound.
+    Support support = {};
   };
   /// One line that distinguishes this prior from others; it is stored in checkpoints.
   std::string description;
   /// The d parameters.
   std::vector<OwnParameter> parameters;
-  /// Logarithm of the density for each row of `points`, normalised (if its integral is not 1, the evidence
-  /// is wrong by that factor); minus infinity where the density is zero. Called only with points inside the
-  /// supports, and from several threads if Options::threads is larger than 1.
+  /// Logarithm of the density for each row of `points`, normalised (if its integral is not 1, the
+  /// evidence is wrong by that factor); minus infinity where the density is zero. Called only with
+  /// points inside the supports, and from several threads if Options::threads is larger than 1.
   LogLikelihood log_density;
   /// Makes one draw from the same density, using as many numbers of the stream as it needs.
   std::function<void(RandomStream& stream, Eigen::Ref<Eigen::VectorXd> point)> draw;
 };
 
-/// A normalised prior, as a value. Improper priors are refused: the evidence is the likelihood averaged over
-/// the prior, and no average exists over a density without a finite integral.
+/// A normalised prior, as a value. Improper priors are refused: the evidence is the likelihood
+/// averaged over the prior, and no average exists over a density without a finite integral.
 class Prior {
  public:
   /// Uniform prior on the box lower < x < upper (Table 2), with the names "parameter 0" and so on.
   /// \param lower,upper  one bound per parameter
-  /// \throws errors::InvalidValue unless both have the same positive length, and lower < upper with a finite
-  ///         distance and at least one double between them.
+  /// \throws errors::InvalidValue unless both have the same positive length, and lower < upper with
+  ///         a finite distance and at least one double between them.
   Prior(Eigen::VectorXd lower, Eigen::VectorXd upper);
 
   /// Prior with the given marginals, independent or with a Gaussian copula.
@@ -58,8 +64,9 @@ class Prior {
   explicit Prior(std::vector<Parameter> parameters, const Correlation& correlation = {});
 
   /// User-defined prior.
-  /// \throws errors::InvalidValue if there is no parameter, if a name is empty or repeated, if there are no
-  ///         doubles between two bounds, if the description is not one line, or if a function is missing.
+  /// \throws errors::InvalidValue if there is no parameter, if a name is empty or repeated, if
+  ///         there are no doubles between two bounds, if the description is not one line, or if a
+  ///         function is missing.
   explicit Prior(OwnPrior own);
 
   /// d, the number of parameters.
@@ -82,8 +89,8 @@ class Prior {
   /// properties, or OwnPrior::description.
   [[nodiscard]] std::string text() const;
 
-  /// n independent draws, n x d, none of them on a bound. They do not depend on the number of threads. With
-  /// marginals the draws are quantiles of uniform numbers.
+  /// n independent draws, n x d, none of them on a bound. They do not depend on the number of
+  /// threads. With marginals the draws are quantiles of uniform numbers.
   /// \throws SamplingError if a user-defined prior draws a point outside its support
   [[nodiscard]] Population sample(Index n, const StreamKey& key, int threads = 1) const;
 
@@ -98,7 +105,8 @@ class Prior {
   /// \throws SamplingError if a user-defined prior gives NaN or plus infinity
   void log_kernel(std::span<const double* const> columns, std::size_t n, double* result) const;
 
-  /// The part of the log-density that does not depend on the parameters, which log_kernel() leaves out.
+  /// The part of the log-density that does not depend on the parameters, which log_kernel() leaves
+  /// out.
   [[nodiscard]] double log_constant() const;
 
  private:
@@ -112,8 +120,10 @@ class Prior {
   std::vector<std::string> units_;
   std::vector<Marginal> marginals_;
   Eigen::MatrixXd
-      factor_;  // Cholesky factor of the correlation matrix of the normal scores; empty for independence
-  std::vector<char> correlated_;  // whether each parameter is correlated with another; empty for independence
+      // Cholesky factor of the correlation matrix of the normal scores; empty for independence
+      factor_;
+  // whether each parameter is correlated with another; empty for independence
+  std::vector<char> correlated_;
   std::shared_ptr<const OwnPrior> own_;
   bool box_ = false;
 };

@@ -63,8 +63,8 @@ void Prior::log_kernel(std::span<const double* const> columns, std::size_t n, do
   }
 }
 
-/// Adds the logarithm of the copula density: -(|L^-1 z|^2 - |z|^2) / 2, where z are the normal scores, for
-/// blocks of points stored column by column.
+/// Adds the logarithm of the copula density: -(|L^-1 z|^2 - |z|^2) / 2, where z are the normal
+/// scores, for blocks of points stored column by column.
 void Prior::add_copula(std::span<const double* const> columns, std::size_t n, double* result) const {
   constexpr std::size_t block = 64;
   const Index d = dimension();

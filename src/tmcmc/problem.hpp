@@ -15,9 +15,9 @@ struct Problem {
   LogLikelihood log_likelihood;
   /// Normalised prior.
   Prior prior;
-  /// Called from time to time during long pieces of the sampler's own work, such as the fit of a mixture, on
-  /// the thread that called run(), for example to check for an interrupt. An exception that it throws ends
-  /// the run; it does not change any result. May be empty.
+  /// Called from time to time during long pieces of the sampler's own work, such as the fit of a
+  /// mixture, on the thread that called run(), for example to check for an interrupt. An exception
+  /// that it throws ends the run; it does not change any result. May be empty.
   std::function<void()> look = {};
 };
 

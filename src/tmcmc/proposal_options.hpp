@@ -28,16 +28,16 @@ enum class Coordinates {
   /// The parameters themselves; a proposal may fall outside the support of the prior.
   natural,
   /// u = log((x - lower) / (upper - x)) where the prior's support has two bounds, log(x - lower) or
-  /// -log(upper - x) where it has one, x itself where it has none; the acceptance ratio includes the
-  /// Jacobian, and no proposal falls outside the support.
+  /// -log(upper - x) where it has one, x itself where it has none; the acceptance ratio includes
+  /// the Jacobian, and no proposal falls outside the support.
   unbounded
 };
 constexpr std::array<std::string_view, 2> enumerator_names(std::type_identity<Coordinates>) {
   return {"natural", "unbounded"};
 }
 
-/// A proposal that leaves the tempered posterior invariant; proposals outside the support of the prior are
-/// rejected. The defaults are the paper's random walk.
+/// A proposal that leaves the tempered posterior invariant; proposals outside the support of the
+/// prior are rejected. The defaults are the paper's random walk.
 struct MetropolisProposal {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "reject";
@@ -46,13 +46,14 @@ struct MetropolisProposal {
   Coordinates coordinates = Coordinates::natural;
   /// A proposal changes a random set of (whitened) coordinates: detail::MetropolisKernel.
   bool random_subsets = false;
-  /// Share of the proposals that are drawn from the normal distribution fitted to the population instead of
-  /// around the current state: detail::MetropolisKernel.
+  /// Share of the proposals that are drawn from the normal distribution fitted to the population
+  /// instead of around the current state: detail::MetropolisKernel.
   double independent_fraction = 0.0;
 };
 
-/// A random walk in all parameters; a proposal outside the support of the prior is drawn again until it is
-/// inside, without the corresponding correction of the acceptance ratio (published scripts).
+/// A random walk in all parameters; a proposal outside the support of the prior is drawn again
+/// until it is inside, without the corresponding correction of the acceptance ratio (published
+/// scripts).
 struct RedrawnWalk {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "redraw";
@@ -73,16 +74,17 @@ struct FixedScale {
   double scale = 0.2;
 };
 
-/// Scale 2.38 / sqrt(d), where d is the number of coordinates that a proposal changes (Roberts, Gelman and
-/// Gilks 1997).
+/// Scale 2.38 / sqrt(d), where d is the number of coordinates that a proposal changes (Roberts,
+/// Gelman and Gilks 1997).
 struct DimensionScale {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "dimension";
 };
 
-/// The scale starts as in DimensionScale; after step k of a stage its logarithm grows by (acceptance rate of
-/// the random walks - acceptance) / sqrt(k), and the next stage continues from there (after Betz,
-/// Papaioannou and Straub 2016, who adapt after groups of chains). Not for growing chains.
+/// The scale starts as in DimensionScale; after step k of a stage its logarithm grows by
+/// (acceptance rate of the random walks - acceptance) / sqrt(k), and the next stage continues from
+/// there (after Betz, Papaioannou and Straub 2016, who adapt after groups of chains). Not for
+/// growing chains.
 struct TargetAcceptance {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "target-acceptance";
@@ -91,8 +93,8 @@ struct TargetAcceptance {
   double acceptance = 0.3;
 };
 
-/// Scale 1/9 + 8/9 of the acceptance rate of the random walks in the preceding stage (Minson, Simons and
-/// Beck 2013); 1 in the first stage.
+/// Scale 1/9 + 8/9 of the acceptance rate of the random walks in the preceding stage (Minson,
+/// Simons and Beck 2013); 1 in the first stage.
 struct AcceptanceLinked {
   /// Name on the command line and in checkpoints.
   static constexpr std::string_view name = "acceptance-linked";

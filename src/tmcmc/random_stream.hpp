@@ -7,8 +7,8 @@
 
 namespace tmcmc {
 
-/// Numbers from the counter-based words at a place and in the blocks after it. They depend only on key and
-/// place, so that draws do not depend on threads or on each other.
+/// Numbers from the counter-based words at a place and in the blocks after it. They depend only on
+/// key and place, so that draws do not depend on threads or on each other.
 class RandomStream {
  public:
   /// \param place  place of the first four words; the others follow in place.block + 1, ...

@@ -10,7 +10,8 @@ namespace tmcmc {
 
 namespace {
 
-/// Random words for the prior's draws and for the division into parts: beyond the words of the mixture.
+/// Random words for the prior's draws and for the division into parts: beyond the words of the
+/// mixture.
 constexpr std::uint32_t prior_block = 2U << 24U;
 
 /// log(exp(a) + exp(b)), where at least one of a and b is finite.

@@ -37,8 +37,8 @@ void log_mixture(Index n, double prior_draws, const double* fitted, const double
   }
 }
 
-/// result = n (1 - s exp(log_prior - log_own)), for draws from one density: n (1 - s) f over their density f
-/// (1 - s) + s p.
+/// result = n (1 - s exp(log_prior - log_own)), for draws from one density: n (1 - s) f over their
+/// density f (1 - s) + s p.
 PORTABLE_MATH_MULTIVERSION
 void relative_to_own(Index rows, double n, double prior_share, const double* log_prior, const double* log_own,
                      double* result) {

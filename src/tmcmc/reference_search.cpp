@@ -17,8 +17,8 @@ Index feasible_draws(const ReferenceDraws& draws) {
   return (draws.log_likelihood.array() > -detail::infinity).count();
 }
 
-/// Points whose weights sum to their effective size, without points of less than a hundredth of the mean
-/// weight.
+/// Points whose weights sum to their effective size, without points of less than a hundredth of the
+/// mean weight.
 WeightedPoints weighted(const ReferenceDraws& draws, const Eigen::VectorXd& log_weight, double effective) {
   constexpr double least_weight = 0.01;
   WeightedPoints data;
@@ -45,8 +45,9 @@ struct Tried {
   double effective = 0.0;
 };
 
-/// The largest beta in (0, 1] about `near` at which the effective size is `wanted` or up to 3 % more, found
-/// by a bracket in growing steps and interpolation of the logarithms within it. 0 if there is none.
+/// The largest beta in (0, 1] about `near` at which the effective size is `wanted` or up to 3 %
+/// more, found by a bracket in growing steps and interpolation of the logarithms within it. 0 if
+/// there is none.
 template <class Function>
 Tried beta_of_size(const Function& effective_at, double wanted, double near) {
   constexpr double least_beta = 1e-30;
@@ -119,8 +120,8 @@ TemperedPoints tempered_points(const ReferenceDraws& draws, double target, doubl
 
 namespace {
 
-/// Fits the draws so far: the number of components is chosen anew when the draws have grown enough and when
-/// beta has reached 1.
+/// Fits the draws so far: the number of components is chosen anew when the draws have grown enough
+/// and when beta has reached 1.
 void fit_round(const TemperedPoints& tempered, const SearchOptions& options, const StreamKey& key,
                std::uint32_t stage, const std::function<void()>& look, Index& rows_at_choice,
                Search& search) {

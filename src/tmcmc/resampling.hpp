@@ -11,8 +11,8 @@
 
 namespace tmcmc {
 
-/// Each scheme gives sample i an expected number of n w_i / sum(w) copies among n; the schemes differ in the
-/// variance of this number (Douc, Cappe and Moulines 2005).
+/// Each scheme gives sample i an expected number of n w_i / sum(w) copies among n; the schemes
+/// differ in the variance of this number (Douc, Cappe and Moulines 2005).
 enum class Resampling {
   /// n independent draws (Ching and Chen 2007).
   multinomial,
@@ -27,8 +27,8 @@ constexpr std::array<std::string_view, 4> enumerator_names(std::type_identity<Re
   return {"multinomial", "residual", "stratified", "systematic"};
 }
 
-/// Ancestors of `ancestors.size()` draws, in ascending order; their number may differ from the number of
-/// weights. Linear time.
+/// Ancestors of `ancestors.size()` draws, in ascending order; their number may differ from the
+/// number of weights. Linear time.
 /// \param weights  non-negative, with a positive sum
 /// \param stage  stage of the random stream
 void resample(Resampling scheme, ConstDoubles weights, const StreamKey& key, std::uint32_t stage,

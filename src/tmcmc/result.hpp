@@ -68,11 +68,13 @@ struct StageRecord {
   Index redraws = 0;
   /// Metropolis steps of each chain; with growing chains those of the longest chain.
   Index move_steps = 0;
-  /// Proposal scale at the end of the stage, before any division by the square root of a subset's size.
+  /// Proposal scale at the end of the stage, before any division by the square root of a subset's
+  /// size.
   double proposal_scale = 0.0;
-  /// Drift of the log-likelihood along the chains of the stage, as a t value with chains - 1 degrees of
-  /// freedom: the mean over the chains of (mean of the last third - mean of the first third), divided by its
-  /// standard error. 0 for fewer than 3 chains and without drift; computed for waste-free only.
+  /// Drift of the log-likelihood along the chains of the stage, as a t value with chains - 1
+  /// degrees of freedom: the mean over the chains of (mean of the last third - mean of the first
+  /// third), divided by its standard error. 0 for fewer than 3 chains and without drift; computed
+  /// for waste-free only.
   double equilibrium_t = 0.0;
   /// Number of evaluations of all weights that were needed to find the step.
   int transition_evaluations = 0;
@@ -102,7 +104,8 @@ struct Evidence {
   double standard_error = 0.0;
 };
 
-/// Signs that the results of a run may be unreliable. src/tmcmc/README.md describes a remedy for each.
+/// Signs that the results of a run may be unreliable. src/tmcmc/README.md describes a remedy for
+/// each.
 enum class WarningKind {
   /// `stop` is not completed: the samples follow a tempered posterior.
   not_completed,
@@ -116,29 +119,31 @@ enum class WarningKind {
   low_effective_size,
   /// The standard error of the log-evidence is above 1.
   uncertain_evidence,
-  /// Fewer than 10 effective samples for each of the d (d + 1) / 2 entries of the proposal covariance:
-  /// proposals fitted to so few samples bias the log-evidence upwards, by 1 in 20 and by 8 in 50 dimensions
-  /// with 3 samples per entry, and its standard error does not include this bias.
+  /// Fewer than 10 effective samples for each of the d (d + 1) / 2 entries of the proposal
+  /// covariance: proposals fitted to so few samples bias the log-evidence upwards, by 1 in 20 and
+  /// by 8 in 50 dimensions with 3 samples per entry, and its standard error does not include this
+  /// bias.
   few_for_covariance,
-  /// The log-likelihood rises along the chains of one stage or of all stages by more than chance explains:
-  /// beta has crossed a transition faster than the chains reach equilibrium, so that log-evidence and
-  /// samples do not come from stationary chains.
+  /// The log-likelihood rises along the chains of one stage or of all stages by more than chance
+  /// explains: beta has crossed a transition faster than the chains reach equilibrium, so that
+  /// log-evidence and samples do not come from stationary chains.
   not_in_equilibrium,
-  /// Independent draws: neither search has come near the posterior. The result comes from TMCMC with the
-  /// remaining evaluations.
+  /// Independent draws: neither search has come near the posterior. The result comes from TMCMC
+  /// with the remaining evaluations.
   search_not_completed,
-  /// Independent draws: the two searches have missed different parts of the posterior, so that both may have
-  /// missed yet another part.
+  /// Independent draws: the two searches have missed different parts of the posterior, so that both
+  /// may have missed yet another part.
   searches_differ,
   /// Independent draws: their effective number is below 250 or below a twentieth of the draws.
   low_overlap,
   /// Independent draws: k-hat is above min(1 - 1 / log10(n), 0.7); the error of the log-evidence is
   /// a lower bound.
   heavy_weights,
-  /// Independent draws: beta was chosen from fewer than 40 effective draws, or, if there are several
-  /// separate modes, from fewer than 25 for each of them and one more; another mode may have been lost. If a
-  /// search has ended below beta = 1, at least two modes are assumed. The warning is also given if the
-  /// searches have made fewer than 2400 draws, which can miss a small part.
+  /// Independent draws: beta was chosen from fewer than 40 effective draws, or, if there are
+  /// several separate modes, from fewer than 25 for each of them and one more; another mode may
+  /// have been lost. If a search has ended below beta = 1, at least two modes are assumed. The
+  /// warning is also given if the searches have made fewer than 2400 draws, which can miss a small
+  /// part.
   few_draws_a_mode
 };
 constexpr std::array<std::string_view, 13> enumerator_names(std::type_identity<WarningKind>) {
@@ -187,18 +192,20 @@ struct Measurement {
 
 /// A finished run.
 struct Result {
-  /// Samples of the posterior if stop is completed. With independent draws the samples are weighted,
-  /// final.log_evidence is the logarithm of their mean weight, and each sample is a chain of its own.
+  /// Samples of the posterior if stop is completed. With independent draws the samples are
+  /// weighted, final.log_evidence is the logarithm of their mean weight, and each sample is a chain
+  /// of its own.
   State final;
   /// Weights, one per sample, with a mean of 1. All are 1 unless the finish is IndependentDraws.
   Eigen::VectorXd weights;
-  /// Records, one per stage, in order. With independent draws: one per round of the first search; only
-  /// stage, beta, step, effective_sample_size and evaluations are set.
+  /// Records, one per stage, in order. With independent draws: one per round of the first search;
+  /// only stage, beta, step, effective_sample_size and evaluations are set.
   std::vector<StageRecord> stages;
   /// Why the run ended.
   StopReason stop = StopReason::completed;
-  /// Log-evidence by bridge sampling up to final.beta; final.log_evidence is the sum of log-mean weights.
-  /// With independent draws: the logarithm of the mean weight, with the error for independent weights.
+  /// Log-evidence by bridge sampling up to final.beta; final.log_evidence is the sum of log-mean
+  /// weights. With independent draws: the logarithm of the mean weight, with the error for
+  /// independent weights.
   Evidence evidence;
   /// Diagnostics; empty, as is evidence, without Options::diagnose.
   Diagnostics diagnostics;

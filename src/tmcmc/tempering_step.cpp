@@ -15,8 +15,8 @@ namespace {
 constexpr double log_step_tolerance = 1e-13;
 constexpr double smallest_step = 1e-300;
 
-/// Distance of the step beyond the criterion, on a scale that is nearly linear in log(step): log(CoV /
-/// target), also expressed through N_eff. Increasing in the step.
+/// Distance of the step beyond the criterion, on a scale that is nearly linear in log(step):
+/// log(CoV / target), also expressed through N_eff. Increasing in the step.
 class Excess {
  public:
   Excess(const WeightStatistics& statistics, const Criterion& criterion, Index counted)

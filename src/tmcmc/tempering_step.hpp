@@ -1,7 +1,8 @@
 /// \file
 /// Choice of the tempering step: the coefficient-of-variation rule of TMCMC (Eq. 6) and the
-/// effective-sample-size rule of TMCMC-II (Eq. 9), each solved as written. With the population standard
-/// deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the same equation.
+/// effective-sample-size rule of TMCMC-II (Eq. 9), each solved as written. With the population
+/// standard deviation N_eff = N / (1 + CoV^2), so that CoV = 1 and N_eff = N/2 are the same
+/// equation.
 #pragma once
 
 #include <string_view>
@@ -34,7 +35,8 @@ struct EffectiveSampleSize {
 struct Criterion {
   /// The rule: Eq. 6 or Eq. 9.
   std::variant<CoefficientOfVariation, EffectiveSampleSize> rule;
-  /// Deviation used in the coefficient of variation, which the record of a stage holds under either rule.
+  /// Deviation used in the coefficient of variation, which the record of a stage holds under either
+  /// rule.
   Deviation deviation = Deviation::population;
   /// The samples to which the criterion applies.
   Counted counted = Counted::feasible;
@@ -99,9 +101,9 @@ struct TemperingStep {
   int evaluations = 0;
 };
 
-/// The largest step in (0, remaining] that satisfies the criterion: `remaining` itself if it does, otherwise
-/// the root, bracketed from the spread of the log-likelihoods and solved in log(step) by Algorithm 748
-/// (Alfeld, Potra and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
+/// The largest step in (0, remaining] that satisfies the criterion: `remaining` itself if it does,
+/// otherwise the root, bracketed from the spread of the log-likelihoods and solved in log(step) by
+/// Algorithm 748 (Alfeld, Potra and Shi 1995) to 1e-13 relative. Steps down to 1e-300 are resolved.
 /// \param log_likelihood  free of NaN and plus infinity
 /// \param remaining  1 - beta, positive
 /// \param threads  number of threads; the result does not depend on it

@@ -21,17 +21,18 @@ using Index = Eigen::Index;
 /// One row per sample, one column per parameter.
 using Population = Eigen::MatrixXd;
 
-/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point that the
-/// model excludes; NaN, plus infinity and values that are not written are errors. A row's value must not
-/// depend on the other rows of the batch. With more than one thread the function is called from several
-/// threads at the same time.
+/// Batch log-likelihood: fills log_likelihood[i] for row i of points. Minus infinity marks a point
+/// that the model excludes; NaN, plus infinity and values that are not written are errors. A row's
+/// value must not depend on the other rows of the batch. With more than one thread the function is
+/// called from several threads at the same time.
 using LogLikelihood = std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                          Eigen::Ref<Eigen::VectorXd> log_likelihood)>;
 
 /// One number per sample, read only.
 using ConstDoubles = std::span<const double>;
 
-/// Thrown by a run that cannot continue: no feasible draw, a criterion that no step meets, a NaN likelihood.
+/// Thrown by a run that cannot continue: no feasible draw, a criterion that no step meets, a NaN
+/// likelihood.
 class SamplingError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

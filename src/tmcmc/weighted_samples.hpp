@@ -18,12 +18,14 @@ namespace tmcmc {
 [[nodiscard]] Eigen::VectorXd effective_sample_sizes(const Population& points,
                                                      const Eigen::VectorXd& weights);
 
-/// n equally weighted points, n x d, drawn from the weighted samples of a run. The expected number of copies
-/// of sample i is n w_i / sum(w).
-/// \param scheme  residual resampling (Douc, Cappe and Moulines 2005) disturbs means least; multinomial gives
-///        n independent draws, whose distribution functions vary as those of independent samples do
+/// n equally weighted points, n x d, drawn from the weighted samples of a run. The expected number
+/// of copies of sample i is n w_i / sum(w).
+/// \param scheme  residual resampling (Douc, Cappe and Moulines 2005) disturbs means least;
+///        multinomial gives n independent draws, whose distribution functions vary as those of
+///        independent samples do
 /// \param key  key of the draws; a run that has used the same key stays independent of them
-/// \throws errors::InvalidValue for n below 1, or a result whose weights are inconsistent with its samples
+/// \throws errors::InvalidValue for n below 1, or a result whose weights are inconsistent with its
+///         samples
 [[nodiscard]] Population equally_weighted(const Result& result, Index n, const StreamKey& key,
                                           Resampling scheme = Resampling::residual);
 

@@ -1,4 +1,5 @@
-// Checks of option values: what they accept in the form that CLI11 parses, and what they say of the rest.
+// Checks of option values: what they accept in the form that CLI11 parses, and what they say of the
+// rest.
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -65,8 +65,8 @@ void check_consistency(const ExactPosterior& posterior, double density_tolerance
   }
 }
 
-/// Evidence of one factor by nested quadratures in the other order: outside over sigma by tanh-sinh in
-/// log(sigma), inside over x by Gauss-Kronrod with 61 points on bands of its own.
+/// Evidence of one factor by nested quadratures in the other order: outside over sigma by tanh-sinh
+/// in log(sigma), inside over x by Gauss-Kronrod with 61 points on bands of its own.
 template <class Misfit>
 double log_factor(std::size_t count, Misfit misfit, const std::vector<double>& bands, const Interval& noise,
                   double offset) {
@@ -142,7 +142,8 @@ TEST_CASE("two quadratures in opposite orders agree", "[estimation]") {
 TEST_CASE("a fine grid through the batch likelihood gives the same evidence and moments", "[estimation]") {
   const Likelihood likelihood(rows::table1(), rows::as_published());
   const auto posterior = published();
-  // F_mu and log(sigma_phase) by the trapezoidal rule; the frequency part at one point is divided out.
+  // F_mu and log(sigma_phase) by the trapezoidal rule; the frequency part at one point is divided
+  // out.
   constexpr int forces = 400;
   constexpr int noises = 600;
   const double omega = 3.08;
@@ -180,7 +181,8 @@ TEST_CASE("a fine grid through the batch likelihood gives the same evidence and 
 
 TEST_CASE("the marginal of the natural frequency is Student's where the noise prior does not cut",
           "[estimation]") {
-  // In the period 1/omega the misfit is a parabola, so the marginal in omega has density (1 + c z^2)^(-(n-1)/2).
+  // In the period 1/omega the misfit is a parabola, so the marginal in omega has density (1 + c
+  // z^2)^(-(n-1)/2).
   auto bounds = rows::table2();
   bounds[frequency_ratio_noise] = {1e-5, 1e3};
   const Likelihood likelihood(rows::table1(), rows::as_published());
@@ -311,7 +313,8 @@ TEST_CASE("one row, and rows that fit exactly", "[estimation]") {
 }
 
 TEST_CASE("several local modes of the friction force", "[estimation]") {
-  // At r = 1.2 the phase has its minimum at 0.991 of the limit: one row fits exactly on either side of it.
+  // At r = 1.2 the phase has its minimum at 0.991 of the limit: one row fits exactly on either side
+  // of it.
   const friction::Physics physics;
   const auto constants = friction::response_constants(1.2, physics);
   const double first_force = 0.998 * constants.limit_force_ratio * physics.driving_force_n;
@@ -533,7 +536,8 @@ TEST_CASE("other priors of the noise levels reweight the posterior under uniform
     const ExactPosterior other(likelihood, with_noise(noise[0], noise[1]));
     double log_evidence = uniform.log_evidence();
     for (std::size_t k = 0; k < 2; ++k) {
-      // The evidence of each pair changes by the mean of the ratio of the densities of its noise level.
+      // The evidence of each pair changes by the mean of the ratio of the densities of its noise
+      // level.
       const auto noise_level = static_cast<Parameter>(phase_noise + static_cast<int>(k));
       const auto& marginal = uniform.marginal(noise_level);
       double mean_ratio = 0.0;

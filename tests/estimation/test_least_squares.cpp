@@ -227,8 +227,8 @@ TEST_CASE("estimates stay within continuous motion, with finite derivatives on t
 }
 
 TEST_CASE("a second local minimum is counted and the lower one is taken", "[estimation]") {
-  // At r = 1.2 the phase has its minimum at 0.991 of the limit: one row that fits at 0.9 of the limit has
-  // another, higher, minimum of the misfit at the limit.
+  // At r = 1.2 the phase has its minimum at 0.991 of the limit: one row that fits at 0.9 of the
+  // limit has another, higher, minimum of the misfit at the limit.
   const friction::Physics physics;
   const auto constants = friction::response_constants(1.2, physics);
   const double force = 0.9 * constants.limit_force_ratio * physics.driving_force_n;
@@ -292,7 +292,8 @@ TEST_CASE("rows that agree with each other determine no noise", "[estimation]") 
   scattered.phase_deg = {149.0, 150.5, 152.0};
   CHECK(fit_least_squares(scattered, {}).friction_force.fitted_noise == estimation::FittedNoise::determined);
 
-  // Noise in the twelfth digit of a phase is below the error of the estimate, noise of 1e-4 deg is not.
+  // Noise in the twelfth digit of a phase is below the error of the estimate, noise of 1e-4 deg is
+  // not.
   for (const auto& [noise, expected] : {std::pair{1e-10, estimation::FittedNoise::perfect_fit},
                                         {1e-4, estimation::FittedNoise::determined}}) {
     CHECK(fit_least_squares(rows::synthetic(12, noise, 0.01), {}).friction_force.fitted_noise == expected);

@@ -21,7 +21,8 @@ double transformed(double misfit, double sigma) {
   return misfit / (2.0 * sigma * sigma);
 }
 
-/// The integral with t = S / (2 sigma^2): 1/2 (S/2)^-k times the integral of t^(k-1) e^-t, k = (n-1)/2.
+/// The integral with t = S / (2 sigma^2): 1/2 (S/2)^-k times the integral of t^(k-1) e^-t, k =
+/// (n-1)/2.
 double closed_form(int count, const Interval& noise, double misfit) {
   const double low = transformed(misfit, noise.upper);
   const double high = transformed(misfit, noise.lower);
@@ -62,7 +63,8 @@ TEST_CASE("the integral over the noise level at the edges", "[estimation]") {
   const Interval noise{0.5, 2.0};
   CHECK_THAT(log_noise_integral(1, noise, 0.0), WithinAbs(std::log(std::log(4.0)), tolerance));
   CHECK_THAT(log_noise_integral(3, noise, 0.0), WithinAbs(std::log(0.5 * (4.0 - 0.25)), tolerance));
-  // Bound by the upper end: S / (2 b^2) = 1e8 and 1e32; the density falls off with the rate S / b^3.
+  // Bound by the upper end: S / (2 b^2) = 1e8 and 1e32; the density falls off with the rate S /
+  // b^3.
   for (const double misfit : {8e8, 8e32}) {
     const double expected = -misfit / 8.0 - 10.0 * std::log(2.0) - std::log(misfit / 8.0);
     CHECK_THAT(log_noise_integral(10, noise, misfit), WithinRel(expected, 1e-12));

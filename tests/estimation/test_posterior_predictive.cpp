@@ -14,7 +14,8 @@ namespace {
 const friction::Physics physics{};
 constexpr double ratio = 0.8;
 
-/// Draws of a known force, with the errors at equal steps of probability: their quantiles are those of the normal distribution, to 3e-3.
+/// Draws of a known force, with the errors at equal steps of probability: their quantiles are those
+/// of the normal distribution, to 3e-3.
 std::vector<PredictiveDraw> draws_at(double friction_force_n, double phase_noise_deg, int n = 4001) {
   std::vector<PredictiveDraw> draws;
   for (int i = 0; i < n; ++i) {

@@ -20,7 +20,8 @@ struct Sums {
   double mass = 0.0, first = 0.0, second = 0.0;
 };
 
-/// Moments of F_mu from `low` to `high` relative to the evidence without stick-slip, by the midpoint rule.
+/// Moments of F_mu from `low` to `high` relative to the evidence without stick-slip, by the
+/// midpoint rule.
 Sums midpoint_sums(const friction::Observations& o, const ExactPosterior& excluded,
                    const estimation::Interval& noise, double low, double high) {
   constexpr int steps = 1500;

@@ -1,6 +1,7 @@
 /// \file
-/// The model one point at a time in long double, from Eqs. 12-24 as they stand: what the batch is measured against. It
-/// shares nothing with the library but the frequency ratios and the choice of a phase rule.
+/// The model one point at a time in long double, from Eqs. 12-24 as they stand: what the batch is
+/// measured against. It shares nothing with the library but the frequency ratios and the choice of
+/// a phase rule.
 #pragma once
 
 #include <cmath>
@@ -41,8 +42,10 @@ class Phase {
     if (rule_ == friction::PhaseRule::fourier_coefficient) {
       lag = {v_ + 4.0L / pi * u_ * phi * phi, 4.0L / pi * phi * x0};
     } else {
-      const auto x = x0 * cosine_ + phi * u_ * sine_ + phi * friction_;  // Eq. 15
-      const auto y = x0 / v_ * cosine_ + phi * u_ / v_ * sine_;          // cos(tau + eta), Eqs. 19-20
+      // Eq. 15
+      const auto x = x0 * cosine_ + phi * u_ * sine_ + phi * friction_;
+      // cos(tau + eta), Eqs. 19-20
+      const auto y = x0 / v_ * cosine_ + phi * u_ / v_ * sine_;
       lag = y * std::conj(x);
     }
     return std::fabs(std::arg(lag)) * 180.0L / pi;

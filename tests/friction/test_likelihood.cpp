@@ -34,7 +34,8 @@ constexpr double penalty = -1e10;
 const Physics exact{};
 const Physics published{.limit = LimitRule::grid, .phase = PhaseRule::discrete_bin};
 
-/// Rows of (F_mu, omega_n, sigma_phase, sigma_r), uniform on a box; F_mu up to 1.3 times the exact limit.
+/// Rows of (F_mu, omega_n, sigma_phase, sigma_r), uniform on a box; F_mu up to 1.3 times the exact
+/// limit.
 Eigen::MatrixXd random_points(Eigen::Index n, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   const auto uniform = [&](double low, double high) {
@@ -53,7 +54,8 @@ Eigen::VectorXd evaluate(const Likelihood& likelihood, const Eigen::MatrixXd& po
   return values;
 }
 
-/// Eq. 24 in long double: the product over the observations of two normal densities, one factor after the other.
+/// Eq. 24 in long double: the product over the observations of two normal densities, one factor
+/// after the other.
 class DirectLikelihood {
  public:
   DirectLikelihood(const Observations& data, const Physics& physics)
@@ -156,11 +158,13 @@ TEST_CASE("the log-likelihood is accurate up to the stick-slip limit", "[frictio
 }
 
 TEST_CASE("the phases of a batch are accurate to 1e-10 deg", "[friction][likelihood]") {
-  // One observation of 0 deg with unit noise levels and no misfit of the frequency: the phase is what is left.
+  // One observation of 0 deg with unit noise levels and no misfit of the frequency: the phase is
+  // what is left.
   constexpr double phase_tolerance = 1e-10;  // deg
   constexpr Eigen::Index n = 1000;
   std::vector<double> ratios = test_data::table1().measured_ratio;
-  // Not within 1 % of a resonance, where U has the condition number of tan beside pi/2: 1e-9 deg there.
+  // Not within 1 % of a resonance, where U has the condition number of tan beside pi/2: 1e-9 deg
+  // there.
   ratios.insert(ratios.end(), {0.22, 0.38, 0.5, 0.55, 0.9, 1.1, 2.5, 4.0, 10.0});
   const Eigen::MatrixXd random = random_points(n, 12);
   for (const Physics& physics : {exact, published}) {
@@ -287,7 +291,8 @@ TEST_CASE("the likelihood is the product of its two parts", "[friction][likeliho
 }
 
 TEST_CASE("noise levels and natural frequency have their closed-form maximum", "[friction][likelihood]") {
-  // At given F_mu the best sigma_phase is sqrt(misfit / n); the best 1/omega_n is linear least squares.
+  // At given F_mu the best sigma_phase is sqrt(misfit / n); the best 1/omega_n is linear least
+  // squares.
   const Observations data = test_data::table1();
   double squares = 0.0;
   double products = 0.0;
@@ -372,7 +377,8 @@ TEST_CASE("a driving force that is none is refused by value", "[friction][likeli
 }
 
 TEST_CASE("a phase written with a turn more or less has the same likelihood", "[friction][likelihood]") {
-  // A rig that is driven ten times as hard has phases close to 0 and 180 deg, where noise crosses the half turn.
+  // A rig that is driven ten times as hard has phases close to 0 and 180 deg, where noise crosses
+  // the half turn.
   const Physics hard{.driving_force_n = 25.0};
   Observations data = test_data::table1();
   for (std::size_t i = 0; i < data.size(); ++i) {

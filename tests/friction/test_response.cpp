@@ -1,5 +1,5 @@
-// Den Hartog's continuous motion: the equation of motion, its limit and the phase angle, each against a
-// computation that shares no formula with the library.
+// Den Hartog's continuous motion: the equation of motion, its limit and the phase angle, each
+// against a computation that shares no formula with the library.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -167,7 +167,8 @@ TEST_CASE("the response turns at 0 and pi and repeats with the other sign", "[fr
 
 TEST_CASE("the mass never turns before pi up to the exact limit, and turns just beyond it",
           "[friction][response]") {
-  // What the limit means: x' <= 0 on (0, pi). Beyond the limit -x' / sin tau is negative where S is attained.
+  // What the limit means: x' <= 0 on (0, pi). Beyond the limit -x' / sin tau is negative where S is
+  // attained.
   constexpr int points = 4000;
   for (const double r : many_ratios()) {
     const ResponseConstants c = response_constants(r, exact);
@@ -307,7 +308,8 @@ TEST_CASE("S is the supremum: a fine grid finds no larger and nearly as large a 
     CAPTURE(r);
     const double s = response_function_s(r, LimitRule::supremum);
     const double on_grid = largest_quotient(r, 40000);
-    // The grid misses a maximum of width r by at most (step / r)^2 / 8 of the range of the quotient.
+    // The grid misses a maximum of width r by at most (step / r)^2 / 8 of the range of the
+    // quotient.
     CHECK(s >= on_grid * (1.0 - 1e-9));
     CHECK_THAT(s, WithinRel(on_grid, 1e-5));
     above_one += s > 1.001 ? 1 : 0;

@@ -1,5 +1,6 @@
-// Time integration of Eq. 10 against closed forms: Den Hartog's continuous motion, single pieces of sliding
-// and sticking, the play operator as the quasi-static limit of stick-slip, and the balance of energy.
+// Time integration of Eq. 10 against closed forms: Den Hartog's continuous motion, single pieces of
+// sliding and sticking, the play operator as the quasi-static limit of stick-slip, and the balance
+// of energy.
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
@@ -47,8 +48,9 @@ struct Start {
   double r, phi, x, velocity;
 };
 
-/// Slope of log(error) against log(step) from 12 to 36 steps per period, error against a solution with very
-/// small steps; the mean over starts, since the place of an event within its step scatters the error.
+/// Slope of log(error) against log(step) from 12 to 36 steps per period, error against a solution
+/// with very small steps; the mean over starts, since the place of an event within its step
+/// scatters the error.
 double observed_order(const Start& s, int stops) {
   constexpr int starts = 15;
   double sum = 0.0;
@@ -172,8 +174,8 @@ TEST_CASE("friction that exceeds the driving force holds the mass", "[friction][
 }
 
 TEST_CASE("just below a force ratio of 1 the mass hops", "[friction][time_integration]") {
-  // r^2 x'' = gap - tau^2/2 about the maximum of the forcing: a hop from -a to 2a, a = sqrt(2 gap), over
-  // 4.5 gap^2 / r^2, with its centre at 0.8 a; between hops the mass sticks.
+  // r^2 x'' = gap - tau^2/2 about the maximum of the forcing: a hop from -a to 2a, a = sqrt(2 gap),
+  // over 4.5 gap^2 / r^2, with its centre at 0.8 a; between hops the mass sticks.
   const double gap = 1e-8;
   for (const double r : {0.5, 1.0, 2.0}) {
     const SteadyResponse s = friction::integrate_steady_response(r, 1.0 - gap);
@@ -236,7 +238,8 @@ TEST_CASE("a slide from rest, a stop and a release follow their closed forms",
 }
 
 TEST_CASE("stick-slip tends to the play operator as r tends to 0", "[friction][time_integration]") {
-  // First harmonic of backlash of half-width phi under cos(tau), unit slope; the rest is of order r.
+  // First harmonic of backlash of half-width phi under cos(tau), unit slope; the rest is of order
+  // r.
   const double r = 0.005;
   for (const double phi : {0.1, 0.3, 0.5, 0.8}) {
     const double in_phase =
@@ -255,7 +258,8 @@ TEST_CASE("observed order of convergence is that of the method", "[friction][tim
   CHECK_THAT(observed_order({0.6, 0.2, 1.0, 0.9}, 0), WithinAbs(8.0, order_band));
   CHECK_THAT(observed_order({0.4, 0.6, 0.1, 0.5}, 1), WithinAbs(8.0, order_band));
 
-  // The whole answer of a stick-slip case, from so few steps that their error is above the tolerances.
+  // The whole answer of a stick-slip case, from so few steps that their error is above the
+  // tolerances.
   const double fine = friction::integrate_steady_response(0.3, 0.5, with_steps(256)).phase_deg;
   const double coarse = friction::integrate_steady_response(0.3, 0.5, with_steps(8)).phase_deg - fine;
   const double halved = friction::integrate_steady_response(0.3, 0.5, with_steps(16)).phase_deg - fine;
@@ -303,8 +307,8 @@ TEST_CASE("a low ratio or much friction gives stops", "[friction][time_integrati
 }
 
 TEST_CASE("at resonance a response is reported only where one exists", "[friction][time_integration]") {
-  // r = 1: a bounded response needs phi > pi/4; beside it, rounding decides. phi = 0, r = 1/3: any free
-  // vibration may be added.
+  // r = 1: a bounded response needs phi > pi/4; beside it, rounding decides. phi = 0, r = 1/3: any
+  // free vibration may be added.
   const double quarter = 0.25 * pi;
   const std::vector<std::pair<double, double>> none{
       {1.0, 0.0},        {1.0, 1e-6},       {1.0, 0.3},       {1.0, 0.99 * quarter},

@@ -1,5 +1,6 @@
-// Any bytes as a CSV file, read as a table and as each file that the experiments read. Either the file is refused with an
-// io::InputError that names file, line and column, or what was read is written and read again as the same cells and numbers.
+// Any bytes as a CSV file, read as a table and as each file that the experiments read. Either the
+// file is refused with an io::InputError that names file, line and column, or what was read is
+// written and read again as the same cells and numbers.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -34,7 +35,8 @@ class MemoryFile {
   std::string path_;
 };
 
-// Each complaint names the file; then the line and what stands there, or the row of a prior that is missing.
+// Each complaint names the file; then the line and what stands there, or the row of a prior that is
+// missing.
 void check_message(const std::string& path, const std::string& message) {
   require_one_line(message);
   require(message.starts_with(path + ":"), "a message names the file", message);

@@ -1,5 +1,5 @@
-// Any words as a command line of replicated_study, up to the point where the work would begin. It ends with status 0, or with
-// 2 and one line on standard error; anything else is a mistake.
+// Any words as a command line of replicated_study, up to the point where the work would begin. It
+// ends with status 0, or with 2 and one line on standard error; anything else is a mistake.
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Components as installed: a run that is kept in a checkpoint, its samples in NetCDF, and a program as the model.
+// Components as installed: a run that is kept in a checkpoint, its samples in NetCDF, and a program
+// as the model.
 #include <cstdio>
 #include <filesystem>
 

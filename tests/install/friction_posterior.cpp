@@ -35,7 +35,8 @@ int main() {
     observations.phase_deg.push_back(phase);
   }
   const friction::Likelihood likelihood(observations, physics);
-  // Noise levels known, so that the posteriors of force and frequency are close to normal around the truth.
+  // Noise levels known, so that the posteriors of force and frequency are close to normal around
+  // the truth.
   const tmcmc::LogLikelihood log_likelihood = [&](const auto& points, auto values) {
     Eigen::MatrixXd full(points.rows(), friction::parameter_count);
     full.col(friction::friction_force) = points.col(0);

@@ -8,7 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-/// A fresh directory below the system's one for temporary files; removed with its contents at the end.
+/// A fresh directory below the system's one for temporary files; removed with its contents at the
+/// end.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -245,7 +245,8 @@ TEST_CASE_METHOD(CsvFixture, "a large table takes no quadratic time", "[io][csv]
   const double elapsed = processor_time() - start;
   CHECK(t.rows() == rows);
   CHECK(sum > 1e10);
-  // Loose, because instrumented builds are slow: an algorithm that is quadratic in the rows takes minutes.
+  // Loose, because instrumented builds are slow: an algorithm that is quadratic in the rows takes
+  // minutes.
   CHECK(elapsed < 5.0);
 }
 

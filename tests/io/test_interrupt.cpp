@@ -31,8 +31,8 @@ struct End {
   double seconds;
 };
 
-/// Runs the body in a process of its own, as a main does: what it throws ends the process by the signal. Signals
-/// have their default actions before.
+/// Runs the body in a process of its own, as a main does: what it throws ends the process by the
+/// signal. Signals have their default actions before.
 End end_of(const std::function<void()>& body) {
   const auto start = std::chrono::steady_clock::now();
   const pid_t child = ::fork();

@@ -1,5 +1,5 @@
-// What spreadsheets and editors make of a table: accepted where the meaning is certain, else refused with file, line, column,
-// value and what was expected.
+// What spreadsheets and editors make of a table: accepted where the meaning is certain, else
+// refused with file, line, column, value and what was expected.
 
 #include <filesystem>
 #include <string>

@@ -28,8 +28,8 @@ double metric(const std::vector<Samples>& samples) {
   return pbox::area_metric(ecdfs_of(samples));
 }
 
-// A coarse grid makes ties within and between samples frequent. Plain mt19937_64 output, so that every
-// standard library draws the same samples.
+// A coarse grid makes ties within and between samples frequent. Plain mt19937_64 output, so that
+// every standard library draws the same samples.
 Samples random_samples(std::mt19937_64& random, std::size_t size, bool tied) {
   Samples samples(size);
   for (double& x : samples) {

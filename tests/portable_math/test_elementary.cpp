@@ -21,8 +21,8 @@ constexpr double smallest_subnormal = std::numeric_limits<double>::denorm_min();
 constexpr long double pi = std::numbers::pi_v<long double>;
 
 constexpr int points = 100000;  // of each range
-// The header states 3. These are what the functions reach; the bits are the same on every machine, and so are
-// the errors.
+// The header states 3. These are what the functions reach; the bits are the same on every machine,
+// and so are the errors.
 constexpr double exp_ulps = 1.0;
 constexpr double log_ulps = 0.9;
 constexpr double atan2_ulps = 1.8;
@@ -287,7 +287,8 @@ TEST_CASE("sine and cosine of turns are exact at the quarters and right between 
   double largest = 0.0;
   double largest_absolute = 0.0;
   for (int i = 0; i < points; ++i) {
-    // Distances from a multiple of a quarter turn, so that the long double argument has no cancellation.
+    // Distances from a multiple of a quarter turn, so that the long double argument has no
+    // cancellation.
     const int quarter = i % 5;
     const double low = quarter == 0 ? 0.0 : -0.125;
     const double high = quarter == 4 ? 0.0 : 0.125;

@@ -35,7 +35,8 @@ double phase_by_hand(double r, double phi) {
   return std::atan2(four_over_pi * phi * x0, v + four_over_pi * u * phi * phi) * 180.0 / std::numbers::pi;
 }
 
-/// With p = 1/omega_n the misfit of the ratios is (0.6 - p)^2 + (0.95 - 2 p)^2 = 0.0125 + 5 (p - 0.5)^2.
+/// With p = 1/omega_n the misfit of the ratios is (0.6 - p)^2 + (0.95 - 2 p)^2 = 0.0125 + 5 (p -
+/// 0.5)^2.
 friction::Observations two_rows() {
   return {{0.6, 0.95}, {0.7, 1.5}, {1.0, 2.0}, {phase_by_hand(0.7, 0.3), phase_by_hand(1.5, 0.3)}};
 }
@@ -67,8 +68,8 @@ TEST_CASE("Tests and intervals of the natural frequency agree with a parabola so
   CHECK_THAT(a.noise_known_95.upper, WithinRel(1.0 / (0.5 - half), solver));
   CHECK_FALSE(a.noise_known_95.lower_at_bound);
   CHECK_FALSE(a.noise_known_95.upper_at_bound);
-  // Student's t with one degree of freedom is a tangent; the other end is beyond omega_n = infinity, so the bound,
-  // twice the largest omega_b / r_nom, is reported.
+  // Student's t with one degree of freedom is a tangent; the other end is beyond omega_n =
+  // infinity, so the bound, twice the largest omega_b / r_nom, is reported.
   const double wide = std::tan(0.475 * std::numbers::pi) * std::sqrt(0.0125 / 5.0);
   CHECK_THAT(a.noise_unknown_95.lower, WithinRel(1.0 / (0.5 + wide), solver));
   CHECK_FALSE(a.noise_unknown_95.lower_at_bound);

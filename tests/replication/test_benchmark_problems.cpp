@@ -70,7 +70,8 @@ TEST_CASE("A point belongs to the mode that it is nearest to") {
 }
 
 TEST_CASE("A mode that both searches have taken for a part of another comes with a warning") {
-  // In this run of few draws each search fits one component to two modes in ten coordinates, and loses the smaller one on the way.
+  // In this run of few draws each search fits one component to two modes in ten coordinates, and
+  // loses the smaller one on the way.
   const auto problems = closed_form_problems();
   const auto& two = named(problems, "two modes, 10-D");
   const auto run = tmcmc::run(two.problem, tmcmc::recommended_options(10000), {.seed = 5, .run = 177});

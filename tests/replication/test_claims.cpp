@@ -11,7 +11,8 @@ namespace {
 using Catch::Matchers::Contains;
 using namespace replication;
 
-/// Studies whose p-boxes reach from `low` to `high` in the friction force and hold the stated frequency.
+/// Studies whose p-boxes reach from `low` to `high` in the friction force and hold the stated
+/// frequency.
 std::vector<StudySummary> studies_with_ends(int enclosing, int missing) {
   std::vector<StudySummary> studies;
   for (int k = 0; k < enclosing + missing; ++k) {

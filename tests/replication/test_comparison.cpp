@@ -16,7 +16,8 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Studies k = 0 ... 99 of samplers A and B: areas 0.1 (1 + k/100) and a permuted tenth of it, 40 + k % 5 runs of 10 iterations.
+/// Studies k = 0 ... 99 of samplers A and B: areas 0.1 (1 + k/100) and a permuted tenth of it, 40 +
+/// k % 5 runs of 10 iterations.
 std::vector<StudySummary> studies() {
   std::vector<StudySummary> list;
   for (int k = 0; k < 100; ++k) {

@@ -1,4 +1,5 @@
-// The search for settings that made the printed tables: it finds a difference that is there, and little where there is none.
+// The search for settings that made the printed tables: it finds a difference that is there, and
+// little where there is none.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +17,8 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Studies with log-Normal areas around `area` and 50 runs that take 10 or, with probability `eleven`, 11 iterations.
+/// Studies with log-Normal areas around `area` and 50 runs that take 10 or, with probability
+/// `eleven`, 11 iterations.
 std::vector<StudySummary> drawn(int n, std::uint32_t arm, double area, double eleven) {
   std::vector<StudySummary> studies;
   for (int k = 0; k < n; ++k) {
@@ -86,7 +88,8 @@ TEST_CASE("columns of one sampler give a search that finds nothing", "[forensics
       settings, names, {{"A", {0.1, 0.01}, {{10, 45}, {11, 5}}}, {"B", {0.11, 0.01}, {{10, 44}, {11, 6}}}});
   CHECK(usual.gain == 0.0);
   CHECK(usual.search_p.value > 0.9);
-  // fresh columns of the first setting: p-values of the search below 0.2 in at most a fifth, by its definition
+  // fresh columns of the first setting: p-values of the search below 0.2 in at most a fifth, by its
+  // definition
   const auto fresh = drawn(120, 9, 0.1, 0.1);
   double below = 0.0;
   for (std::size_t i = 0; i + 1 < fresh.size(); i += 2) {

@@ -1,4 +1,5 @@
-// Measurements and priors from files: what is read, and what is refused by file, line, column and value.
+// Measurements and priors from files: what is read, and what is refused by file, line, column and
+// value.
 
 #include <catch2/catch.hpp>
 #include <cmath>

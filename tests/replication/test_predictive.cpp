@@ -1,4 +1,5 @@
-// Predictive densities of the printed tables, and how often a setting's own studies are as improbable.
+// Predictive densities of the printed tables, and how often a setting's own studies are as
+// improbable.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -17,7 +18,8 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// Studies whose log areas are Normal with correlation 0.6 and whose runs take 10 or 11 iterations with probability 0.2 of 11.
+/// Studies whose log areas are Normal with correlation 0.6 and whose runs take 10 or 11 iterations
+/// with probability 0.2 of 11.
 std::vector<StudySummary> drawn_studies(int n, std::uint64_t seed, double factor = 1.0) {
   std::vector<StudySummary> studies;
   for (int k = 0; k < n; ++k) {
@@ -49,7 +51,8 @@ TEST_CASE("the predictive density is a Normal and a multinomial", "[predictive]"
   const auto studies = drawn_studies(2000, 3);
   const Prediction prediction(studies, {{10, 0}, {11, 0}});
   const Counts counts = {{10, 40}, {11, 10}};
-  // log of a bivariate Normal density at its mean, and of the binomial probability of 10 of 50 at 0.2
+  // log of a bivariate Normal density at its mean, and of the binomial probability of 10 of 50 at
+  // 0.2
   const std::vector<double> centre = {0.1, 0.01};
   const auto at_centre = prediction.log_density(centre, counts);
   CHECK_THAT(at_centre.areas, WithinAbs(-std::log(2.0 * std::acos(-1.0) * 0.2 * 0.1 * 0.8), 0.1));

@@ -20,8 +20,9 @@ const PosteriorOf posterior_of = [](const friction::Observations& o) {
 }  // namespace
 
 TEST_CASE("predictions of simulated measurements from the others are calibrated", "[predictive]") {
-  // Uniform probabilities: of 20 data sets with 10 rows each, 95 % of the phases and of the ratios lie in the central 95 %.
-  // Rows of one set share a posterior, so that the bound is that of independent sets with few effective rows: 4 standard errors.
+  // Uniform probabilities: of 20 data sets with 10 rows each, 95 % of the phases and of the ratios
+  // lie in the central 95 %. Rows of one set share a posterior, so that the bound is that of
+  // independent sets with few effective rows: 4 standard errors.
   std::vector<double> phases, ratios;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto measured = generate_observations({.friction_force_n = 0.6}, nominal_ratios(), physics, seed);

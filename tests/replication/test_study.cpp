@@ -167,8 +167,9 @@ TEST_CASE("a small study of the published reading agrees with the exact posterio
   for (std::uint32_t a = 0; a < 2; ++a) {
     CAPTURE(arms[a].name);
     const auto runs = run_arm(problem, arms[a], a, {.runs = 20, .seed = 1});
-    // Single runs of this sampler are poor (their means scatter by a posterior standard deviation), so that
-    // the mean over the runs is what is right, to within standard errors taken from their scatter.
+    // Single runs of this sampler are poor (their means scatter by a posterior standard deviation),
+    // so that the mean over the runs is what is right, to within standard errors taken from their
+    // scatter.
     const auto friction = mean_over_runs(runs, friction::friction_force);
     CHECK(friction.errors_from(exact_friction_force_n) < statistics::standard_errors);
     CHECK(friction.standard_error < exact_friction_force_sd_n);
@@ -213,7 +214,8 @@ TEST_CASE("better moves bring every run to the exact posterior", "[study]") {
 }
 
 TEST_CASE("moments and evidence on a small box agree with a quadrature by midpoints", "[study]") {
-  // The posterior is a product of two densities of a location and a noise level, here on 300 x 300 points.
+  // The posterior is a product of two densities of a location and a noise level, here on 300 x 300
+  // points.
   const Eigen::Vector4d lower(0.7, 2.9, 1.0, 0.003);
   const Eigen::Vector4d upper(1.3, 3.25, 10.0, 0.06);
   auto reading = small_reading(ReadingName::corrected, 400);

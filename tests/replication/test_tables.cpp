@@ -1,4 +1,5 @@
-// Tables of studies: what is written is read back, and what is wrong with a file is said with its place.
+// Tables of studies: what is written is read back, and what is wrong with a file is said with its
+// place.
 
 #include <catch2/catch.hpp>
 #include <cmath>

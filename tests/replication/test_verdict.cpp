@@ -14,7 +14,8 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// Studies with areas base * (1 + k/n) and the given counts, for two samplers with a ratio between them.
+/// Studies with areas base * (1 + k/n) and the given counts, for two samplers with a ratio between
+/// them.
 std::vector<StudySummary> synthetic(int n, double ratio,
                                     const std::map<tmcmc::Index, tmcmc::Index>& second_counts) {
   std::vector<StudySummary> studies;

@@ -173,7 +173,8 @@ TEST_CASE("few tables are an error too", "[counts]") {
 }
 
 TEST_CASE("quantiles of the null", "[counts]") {
-  // For many runs the deviance is chi^2 with 2 degrees of freedom: 95 % at -2 log 0.05, central 95 % likewise.
+  // For many runs the deviance is chi^2 with 2 degrees of freedom: 95 % at -2 log 0.05, central 95
+  // % likewise.
   const auto test = test_tables({{{9, 300}, {10, 300}, {11, 400}}}, {{{{9, 3000}, {10, 3000}, {11, 4000}}}});
   CHECK_THAT(test.critical, WithinRel(-2.0 * std::log(0.05), 0.02));
   CHECK_THAT(test.interval.low, WithinRel(-2.0 * std::log(0.975), 0.1));

@@ -101,7 +101,8 @@ TEST_CASE("ratios of equals, against all pairs", "[p_value]") {
 }
 
 TEST_CASE("the p-value of a ratio and its standard error, over many samples", "[p_value]") {
-  // log-Normal with sd 0.3 of the logarithm: log ratios have sd 0.3 sqrt 2; at 2.0 the tail is 0.0511
+  // log-Normal with sd 0.3 of the logarithm: log ratios have sd 0.3 sqrt 2; at 2.0 the tail is
+  // 0.0511
   constexpr int samples = 300;
   std::vector<double> p, error;
   for (int k = 0; k < samples; ++k) {
@@ -155,7 +156,8 @@ TEST_CASE("equivalence of medians", "[p_value]") {
   CHECK((twice.interval.low < 2.0 && twice.interval.high > 2.0));
   CHECK_THROWS_AS(median_ratio_equivalence({}, near, 0.1, 1), errors::InvalidValue);
   CHECK_THROWS_AS(median_ratio_equivalence(std::vector<double>{0.0}, near, 0.1, 1), errors::InvalidValue);
-  // The bootstrap interval of a median of n Normal-like values has the width 2 * 1.96 * 1.2533 sd / sqrt(n).
+  // The bootstrap interval of a median of n Normal-like values has the width 2 * 1.96 * 1.2533 sd /
+  // sqrt(n).
   std::vector<double> normal;
   for (int i = 0; i < 400; ++i) {
     const auto w = tmcmc::random_words({.seed = 5}, {.row = static_cast<std::uint64_t>(i)});

@@ -51,7 +51,8 @@ TEST_CASE("a single draw is a normal distribution", "[predictive]") {
 }
 
 TEST_CASE("normal outputs and noise give the normal distribution of their sum", "[predictive]") {
-  // m ~ N(10, 3), sigma = 4: y ~ N(10, 5). The quantiles in the place of draws leave out 1e-4 of the variance.
+  // m ~ N(10, 3), sigma = 4: y ~ N(10, 5). The quantiles in the place of draws leave out 1e-4 of
+  // the variance.
   constexpr std::size_t n = 20000;
   constexpr double left_out = 2e-4;
   constexpr double one_draw = 3.0 / (20000 * 0.0584);  // between the draws at the ends of the model's band

@@ -1,5 +1,5 @@
-// A run that was killed after any stage and goes on from its file ends with the same bits; a file that is not its own, or
-// not whole, is refused.
+// A run that was killed after any stage and goes on from its file ends with the same bits; a file
+// that is not its own, or not whole, is refused.
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -73,8 +73,9 @@ inline tmcmc::Options good_options(tmcmc::Index dimension) {
   return options;
 }
 
-/// Asymmetric and correlated. x: gamma with shape 3 and rate 2. y given x: Normal about 5 - x with standard deviation 0.6.
-/// The likelihood is x^2 exp(-2 x) exp(-(y - 5 + x)^2 / 0.72), the box [0, 20] x [-20, 10].
+/// Asymmetric and correlated. x: gamma with shape 3 and rate 2. y given x: Normal about 5 - x with
+/// standard deviation 0.6. The likelihood is x^2 exp(-2 x) exp(-(y - 5 + x)^2 / 0.72), the box [0,
+/// 20] x [-20, 10].
 inline tmcmc::Problem gamma_normal() {
   return problem_of(
       [](const auto& x) {

@@ -11,7 +11,8 @@
 
 namespace resumable {
 
-/// One of each: moves, resampling, scale rules, stages that go on until they have mixed, cross-fitting, budgets.
+/// One of each: moves, resampling, scale rules, stages that go on until they have mixed,
+/// cross-fitting, budgets.
 inline std::vector<std::pair<std::string, tmcmc::Options>> every_kind() {
   using tmcmc::Resampling;
   tmcmc::Options paper;

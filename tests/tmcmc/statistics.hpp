@@ -1,6 +1,7 @@
 /// \file
-/// Reference distributions, and the bounds of the statistical tests. Seeds are fixed: a test that passes once
-/// passes always, and the bounds say how unlikely a correct program would have been to fail it.
+/// Reference distributions, and the bounds of the statistical tests. Seeds are fixed: a test that
+/// passes once passes always, and the bounds say how unlikely a correct program would have been to
+/// fail it.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +12,12 @@
 
 namespace statistics {
 
-/// Bound on |estimate - truth| in Monte Carlo standard errors; chance exceeds it with probability 6e-5.
+/// Bound on |estimate - truth| in Monte Carlo standard errors; chance exceeds it with probability
+/// 6e-5.
 constexpr double standard_errors = 4.0;
 
-/// Bound on sqrt(n) D_n of Kolmogorov's test; chance exceeds it with probability 2 exp(-2 2.3^2) = 5e-5.
+/// Bound on sqrt(n) D_n of Kolmogorov's test; chance exceeds it with probability 2 exp(-2 2.3^2) =
+/// 5e-5.
 constexpr double kolmogorov_bound = 2.3;
 
 /// Uniform numbers from a generator that the library does not use.
@@ -58,7 +61,8 @@ double kolmogorov(std::vector<double> values, Cdf cdf) {
 struct Estimate {
   double mean;
   double standard_deviation;
-  double standard_error;  ///< of the mean
+  /// Of the mean.
+  double standard_error;
 
   /// Distance from the truth in standard errors.
   [[nodiscard]] double errors_from(double truth) const { return std::fabs(mean - truth) / standard_error; }

@@ -95,7 +95,8 @@ TEST_CASE("the better moves keep their budget", "[tmcmc][budget]") {
 
 namespace {
 
-/// Two parameters known to 1 in 10^4 of the prior's width and a third to 1 in 10^5: some twenty stages.
+/// Two parameters known to 1 in 10^4 of the prior's width and a third to 1 in 10^5: some twenty
+/// stages.
 Problem needle() {
   return {problems::by_rows([](const auto& x) {
             const double a = (x[0] - 0.6) / 2e-4;

@@ -1,4 +1,5 @@
-// What a run says of itself: effective sample sizes against the truth, and warnings where something is wrong, only there.
+// What a run says of itself: effective sample sizes against the truth, and warnings where something
+// is wrong, only there.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -34,7 +35,8 @@ bool warns(const Result& result, WarningKind kind) {
   return std::any_of(list.begin(), list.end(), [=](const Warning& w) { return w.kind == kind; });
 }
 
-/// Harmonic mean over repetitions: 1 / (effective size) is what is estimated without bias, as a variance of a mean.
+/// Harmonic mean over repetitions: 1 / (effective size) is what is estimated without bias, as a
+/// variance of a mean.
 double harmonic_mean(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) {
@@ -166,7 +168,8 @@ TEST_CASE("a healthy run has no warnings, and without diagnose none of it is com
 }
 
 TEST_CASE("a population that has collapsed is told so", "[tmcmc][diagnostics]") {
-  // Chains that hardly move: what is left are copies of the few draws from the prior nearest to the posterior.
+  // Chains that hardly move: what is left are copies of the few draws from the prior nearest to the
+  // posterior.
   Options options;
   options.samples = 500;
   options.move = tmcmc::ResampleMove{.steps = 3};
@@ -274,10 +277,12 @@ TEST_CASE("few healthy runs, and nearly all that outran their chains, are said n
     }
     return count;
   };
-  // At 1 % of false alarms, 7 or more of 250 would have a probability of 1 in 70; at 2 %, 3 or fewer 1 in 4.
+  // At 1 % of false alarms, 7 or more of 250 would have a probability of 1 in 70; at 2 %, 3 or
+  // fewer 1 in 4.
   CHECK(alarms(gamma_normal(), 5000, 10, 250) < 7);
   CHECK(alarms(gamma_normal(), 5000, 100, 250) < 7);
-  // A mean and a noise level of nine readings that agree to 1 in 10^4 of the prior: the noise is found last.
+  // A mean and a noise level of nine readings that agree to 1 in 10^4 of the prior: the noise is
+  // found last.
   const Problem precise = {
       problems::by_rows([](const auto& x) {
         double sum = 0.0;

@@ -1,4 +1,5 @@
-// The hierarchical example (examples/eight_groups.hpp) against its closed form, and an unknown spread against quadrature.
+// The hierarchical example (examples/eight_groups.hpp) against its closed form, and an unknown
+// spread against quadrature.
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>

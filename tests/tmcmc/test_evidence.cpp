@@ -1,4 +1,5 @@
-// Log-evidence: the bridge estimate, its standard error, constants in the likelihood and excluded points.
+// Log-evidence: the bridge estimate, its standard error, constants in the likelihood and excluded
+// points.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -56,7 +57,8 @@ double honesty(const std::vector<double>& errors, const std::vector<double>& sta
                    std::accumulate(errors.begin(), errors.end(), 0.0, square));
 }
 
-/// A correlated Gaussian of dimension d in a box of width 20; far smaller than the box, and not in its middle.
+/// A correlated Gaussian of dimension d in a box of width 20; far smaller than the box, and not in
+/// its middle.
 Problem narrow_gaussian(Index d) {
   return problem_of(
       [=](const auto& x) {
@@ -258,7 +260,8 @@ TEST_CASE("evidence and its standard error from a single run, over many runs", "
 TEST_CASE(
     "a constant in the log-likelihood changes no sample and no temperature, and moves the evidence by itself",
     "[tmcmc][evidence]") {
-  // Values on a grid, so that the constants are added without rounding; a third of the box is excluded.
+  // Values on a grid, so that the constants are added without rounding; a third of the box is
+  // excluded.
   const auto shifted = [](double constant) {
     return problem_of(
         [constant](const auto& x) {

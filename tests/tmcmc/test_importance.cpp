@@ -59,7 +59,8 @@ TEST_CASE("The error does not count differences between strata of fixed size") {
   for (std::size_t i = 3200; i < 6400; ++i) {
     log_weights[i] += 3.0;
   }
-  // Relative to the larger mean, the first half hardly counts: sqrt(1/2) of the draws at twice the share.
+  // Relative to the larger mean, the first half hardly counts: sqrt(1/2) of the draws at twice the
+  // share.
   const double mean_ratio = 2.0 / (1.0 + std::exp(-3.0));
   CHECK(importance_estimate(log_weights).standard_error ==
         Approx(free * mean_ratio * std::sqrt(0.5 * (1.0 + std::exp(-6.0)))).epsilon(0.03));

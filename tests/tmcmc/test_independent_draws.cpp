@@ -44,7 +44,8 @@ Problem five_modes() {
           BoxPrior(Eigen::Vector2d(-10.0, -10.0), Eigen::Vector2d(10.0, 10.0))};
 }
 
-/// Two normal modes in ten coordinates with the masses 3/4 and 1/4, which one search or both lose in most runs.
+/// Two normal modes in ten coordinates with the masses 3/4 and 1/4, which one search or both lose
+/// in most runs.
 Problem two_far_modes() {
   return {problems::by_rows([](const auto& x) {
             const double first = -2.0 * (x.array() - 4.0).square().sum();
@@ -275,7 +276,8 @@ TEST_CASE("Draws of one density have the weights of that density, with the share
 }
 
 TEST_CASE("Few draws of the searches are warned of, however simple the posterior") {
-  // Such draws miss, in 3 of 200 runs, a ball of a three hundredth of the prior's volume that holds the posterior.
+  // Such draws miss, in 3 of 200 runs, a ball of a three hundredth of the prior's volume that holds
+  // the posterior.
   for (std::uint32_t run = 0; run < 5; ++run) {
     CHECK(
         warns(tmcmc::run(normal(), by_draws(3000), {.seed = 12, .run = run}), WarningKind::few_draws_a_mode));

@@ -1,4 +1,5 @@
-// The distributions of one parameter: densities, distribution functions, quantiles, and draws by their quantiles.
+// The distributions of one parameter: densities, distribution functions, quantiles, and draws by
+// their quantiles.
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>

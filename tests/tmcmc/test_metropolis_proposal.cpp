@@ -1,4 +1,5 @@
-// Proposals in unbounded coordinates, in random subsets of them, and independent ones: what they leave invariant.
+// Proposals in unbounded coordinates, in random subsets of them, and independent ones: what they
+// leave invariant.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -30,8 +31,8 @@ using tmcmc::detail::MoveCounts;
 
 constexpr Index n = 20000;
 
-/// Asymmetric, correlated, and with most of its mass at a corner of its box [0, 1] x [1, 3]: x of density exp(-3 x), y - 1
-/// given x of density exp(-rate (y - 1)).
+/// Asymmetric, correlated, and with most of its mass at a corner of its box [0, 1] x [1, 3]: x of
+/// density exp(-3 x), y - 1 given x of density exp(-rate (y - 1)).
 double rate_of_y(double x) {
   return 1.0 + 8.0 * x;
 }
@@ -146,7 +147,8 @@ TEST_CASE("and brings any start to it", "[tmcmc][proposals]") {
 
 TEST_CASE("an independent proposal is always accepted where the target is the fitted normal distribution",
           "[tmcmc][proposals]") {
-  // Any error in the ratio of the proposal densities, in the units of the factor or in the Jacobian rejects some.
+  // Any error in the ratio of the proposal densities, in the units of the factor or in the Jacobian
+  // rejects some.
   Eigen::MatrixXd sigma_factor(3, 3);
   sigma_factor << 0.8, 0.0, 0.0, -0.5, 0.6, 0.0, 0.3, 0.4, 0.2;
   const Eigen::Vector3d centre(0.3, -0.2, 0.1);

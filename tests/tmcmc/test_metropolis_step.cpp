@@ -1,4 +1,5 @@
-// Metropolis steps: what they leave invariant, what the uncorrected redraw does instead, and errors.
+// Metropolis steps: what they leave invariant, what the uncorrected redraw does instead, and
+// errors.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -50,8 +51,8 @@ MetropolisKernel kernel_of(double scale, double beta = 1.0, Boundary boundary = 
   return kernel_of(Eigen::MatrixXd::Constant(1, 1, scale), beta, boundary);
 }
 
-/// Integral from 0 to x of Phi((1 - t)/s) - Phi(-t/s): the probability that a Normal proposal from t with
-/// standard deviation s falls into [0, 1].
+/// Integral from 0 to x of Phi((1 - t)/s) - Phi(-t/s): the probability that a Normal proposal from
+/// t with standard deviation s falls into [0, 1].
 double stay_integral(double x, double s) {
   const auto g = [](double z) { return z * statistics::normal_cdf(z) + statistics::normal_density(z); };
   return s * (g(1.0 / s) - g((1.0 - x) / s) - g(0.0) + g(-x / s));
@@ -112,7 +113,8 @@ TEST_CASE("rejection keeps a uniform target; the uncorrected redraw samples pi(x
 
   SECTION("reject") {
     const MoveCounts first = chains.move(1);
-    // A proposal of a uniform chain stays in the box with probability `stay`, and then it is accepted.
+    // A proposal of a uniform chain stays in the box with probability `stay`, and then it is
+    // accepted.
     CHECK_THAT(static_cast<double>(first.accepted),
                WithinAbs(n * stay, standard_errors * std::sqrt(n * stay * (1.0 - stay))));
     CHECK(first.evaluations == first.accepted);

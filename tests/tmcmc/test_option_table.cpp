@@ -95,8 +95,8 @@ std::string markdown() {
 }  // namespace
 
 TEST_CASE("every member of the options has its row", "[tmcmc][options]") {
-  // criterion has two further members, a mixture fit has its own; move, scale_rule, proposal, finish and criterion.rule are rows,
-  // as are their members.
+  // criterion has two further members, a mixture fit has its own; move, scale_rule, proposal,
+  // finish and criterion.rule are rows, as are their members.
   const std::size_t expected =
       members<Options>() - 1 + members<tmcmc::Criterion>() +
       members_of_alternatives<decltype(tmcmc::Criterion::rule)> + members_of_alternatives<tmcmc::Move> +

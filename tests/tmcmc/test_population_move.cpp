@@ -170,7 +170,8 @@ TEST_CASE("cross-fitting: the proposals of each half are shaped by the other hal
       const Index after = waste_free ? c + chains : c;
       steps[row % 2].push_back(to.points(after, 0) - from.points(row, 0));
     }
-    // About 500 steps or more from each half: standard deviations to 3.2 %, as of the half they were fitted to.
+    // About 500 steps or more from each half: standard deviations to 3.2 %, as of the half they
+    // were fitted to.
     CHECK_THAT(statistics::estimate(steps[0]).standard_deviation,
                WithinRel(0.2 * 0.01, standard_errors * 0.045));
     CHECK_THAT(statistics::estimate(steps[1]).standard_deviation,
@@ -251,7 +252,8 @@ TEST_CASE("waste-free in a run: N rows, M (N/M - 1) evaluations a stage", "[tmcm
 }
 
 TEST_CASE("every chain of waste-free gets its share of the next starts", "[tmcmc][stage_moves]") {
-  // Equal weights, and a distance between starts (N / M = 60) that is a multiple of the number of chains.
+  // Equal weights, and a distance between starts (N / M = 60) that is a multiple of the number of
+  // chains.
   const Problem flat = {by_rows([](const auto&) { return 0.0; }), chains::unit_box(1)};
   Options options = with(WasteFree{});
   options.samples = 600;

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t runs = 20;
-/// Bound on the root mean square of 20 standard normal numbers; chance exceeds it with probability 1e-4.
+/// Bound on the root mean square of 20 standard normal numbers; chance exceeds it with probability
+/// 1e-4.
 constexpr double rms_bound = 1.6;
 
 struct Exact {

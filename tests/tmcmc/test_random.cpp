@@ -122,8 +122,8 @@ TEST_CASE("streams that differ in one bit of one field, or in two, differ in eve
   }
   changes.emplace_back([](Place&) {});
 
-  // All pairs of changes: two fields that shared bits of the counter would cancel or coincide. Equal pairs in
-  // either order name the same place, as do two purposes (the later one holds).
+  // All pairs of changes: two fields that shared bits of the counter would cancel or coincide.
+  // Equal pairs in either order name the same place, as do two purposes (the later one holds).
   std::vector<std::set<std::uint64_t>> seen(4);
   std::size_t places = 0;
   for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -77,7 +77,8 @@ TEST_CASE("counts are multinomial: chi-squared with the right mean and variance"
     }
     chi_squared.push_back(sum);
   }
-  // 19 degrees of freedom: mean 19, and a variance near 38 that systematic resampling would miss by far.
+  // 19 degrees of freedom: mean 19, and a variance near 38 that systematic resampling would miss by
+  // far.
   const auto e = statistics::estimate(chi_squared);
   CHECK(e.errors_from(19.0) < statistics::standard_errors);
   CHECK_THAT(e.standard_deviation * e.standard_deviation, WithinAbs(38.0, 38.0 * 0.4));
@@ -170,12 +171,14 @@ TEST_CASE("every scheme gives each sample its expected number of copies, with it
       CHECK(e.errors_from(expected) < statistics::standard_errors);
       variances.back().push_back(e.standard_deviation * e.standard_deviation);
     }
-    // Whole copies are certain but for multinomial; the cumulative weights of stratified cut two strata.
+    // Whole copies are certain but for multinomial; the cumulative weights of stratified cut two
+    // strata.
     CHECK((scheme == Resampling::systematic) == (furthest < 1.0));
     CHECK((scheme == Resampling::stratified || scheme == Resampling::systematic) == (furthest < 2.0));
     CHECK((scheme == Resampling::residual || scheme == Resampling::systematic) == (least == 0.0));
   }
-  // Variance of the counts: n p (1 - p); the same of the rest alone; f (1 - f) with the fraction f of the expected number.
+  // Variance of the counts: n p (1 - p); the same of the rest alone; f (1 - f) with the fraction f
+  // of the expected number.
   const double rest = [&] {
     double copies = 0.0;
     for (const double w : weights) {

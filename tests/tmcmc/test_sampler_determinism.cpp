@@ -1,4 +1,5 @@
-// A result depends on problem, options and seed alone: not on threads, batches or a constant in the likelihood.
+// A result depends on problem, options and seed alone: not on threads, batches or a constant in the
+// likelihood.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -123,8 +124,8 @@ TEST_CASE("runs that differ in any field of their key differ", "[tmcmc][sampler]
 }
 
 TEST_CASE("no stage uses the random numbers of another", "[tmcmc][sampler]") {
-  // A flat likelihood in a box that no proposal leaves: every step is accepted, and its displacements are the
-  // normals of the stage.
+  // A flat likelihood in a box that no proposal leaves: every step is accepted, and its
+  // displacements are the normals of the stage.
   const Problem flat = {by_rows([](const auto&) { return 0.0; }),
                         BoxPrior(Eigen::VectorXd::Constant(1, -1.0), Eigen::VectorXd::Constant(1, 1.0))};
   Options options;

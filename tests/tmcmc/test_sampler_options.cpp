@@ -1,4 +1,5 @@
-// The posterior and the evidence under the options beyond the paper's, and options that do not go together.
+// The posterior and the evidence under the options beyond the paper's, and options that do not go
+// together.
 
 #include <catch2/catch.hpp>
 #include <cmath>

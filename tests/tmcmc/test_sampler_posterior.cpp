@@ -1,6 +1,6 @@
-// The sampler against posteriors and evidences in closed form. Errors are measured by independent runs: a mean
-// over the runs has to lie within 4 of its standard errors of the truth, and within a bias of order 1/N that
-// every sampler of this kind has at finite N.
+// The sampler against posteriors and evidences in closed form. Errors are measured by independent
+// runs: a mean over the runs has to lie within 4 of its standard errors of the truth, and within a
+// bias of order 1/N that every sampler of this kind has at finite N.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -83,10 +83,11 @@ TEST_CASE("both criteria and both means sample an asymmetric, correlated posteri
 
 TEST_CASE("one stage of growing chains has the distribution of its kernel, not the posterior",
           "[tmcmc][sampler]") {
-  // Uniform prior on [0, 1], likelihood exp(-rate x), one stage. For large N the number of picks of a chain that
-  // starts at x is Poisson with mean lambda(x) = L(x) / mean L, and the k-th state of the chain is in the
-  // population if there are k picks: its density is the sum over k of P(picks >= k | x) K^k(x, .). P(picks >= k)
-  // is not proportional to the weight, so that this is not the posterior unless K mixes at once or not at all.
+  // Uniform prior on [0, 1], likelihood exp(-rate x), one stage. For large N the number of picks of
+  // a chain that starts at x is Poisson with mean lambda(x) = L(x) / mean L, and the k-th state of
+  // the chain is in the population if there are k picks: its density is the sum over k of P(picks
+  // >= k | x) K^k(x, .). P(picks >= k) is not proportional to the weight, so that this is not the
+  // posterior unless K mixes at once or not at all.
   constexpr double rate = 6.0;
   constexpr Index cells = 300;
   constexpr double h = 1.0 / cells;
@@ -215,7 +216,8 @@ TEST_CASE("excluded draws: evidence and posterior of a likelihood that is zero o
 }
 
 TEST_CASE("evidence from a fixed schedule is unbiased", "[tmcmc][sampler]") {
-  // E[Z] = Z at any N where the schedule does not depend on the draws; 30 samples show a bias of log Z instead.
+  // E[Z] = Z at any N where the schedule does not depend on the draws; 30 samples show a bias of
+  // log Z instead.
   const Problem problem = problem_of([](const auto& x) { return -4.0 * x[0]; }, Eigen::VectorXd::Zero(1),
                                      Eigen::VectorXd::Ones(1));
   Options options = good_options(1);

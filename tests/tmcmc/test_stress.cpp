@@ -1,4 +1,5 @@
-// What the sampler does where a model or a prior is at the edge of what doubles hold: every case ends in a stated way.
+// What the sampler does where a model or a prior is at the edge of what doubles hold: every case
+// ends in a stated way.
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -127,7 +127,8 @@ TEST_CASE("Sums of densities are relative to the given scale, whatever its level
 }
 
 TEST_CASE("Densities in few dimensions and in many are the same function, with and without a wider share") {
-  // A coordinate that is independent of the others factorises out of a normal, but not of Student's t: so compare with the definition.
+  // A coordinate that is independent of the others factorises out of a normal, but not of Student's
+  // t: so compare with the definition.
   for (const Index d : {1, 2, 3, 4, 5, 6, 7, 9}) {
     for (const int nu : {4, 8}) {
       for (const double wide_share : {0.0, 0.25}) {
@@ -182,7 +183,8 @@ TEST_CASE("A wider share has the means, and at most 16 times the volume and twic
     const Index narrow = n * 3 / 4;  // the draws stand in the order of the parts
     const double variance_of_t = 8.0 / 6.0;
     const auto variance_of = [](const auto& part) { return (part.array() - 5.0).square().mean(); };
-    // Of Student's t with 8 degrees of freedom the kurtosis is 4.5, so the variance of a square is 3.5 times its squared mean.
+    // Of Student's t with 8 degrees of freedom the kurtosis is 4.5, so the variance of a square is
+    // 3.5 times its squared mean.
     const auto bound = [&](Index rows) { return 5.0 * std::sqrt(3.5 / static_cast<double>(rows)); };
     for (Index j = 0; j < d; ++j) {
       CHECK(variance_of(x.col(j).head(narrow)) / (9.0 * variance_of_t) == Approx(1.0).margin(bound(narrow)));

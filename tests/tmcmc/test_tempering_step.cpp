@@ -1,4 +1,5 @@
-// Choice of the tempering step: closed forms, the identity of the two criteria, extreme scales and edges.
+// Choice of the tempering step: closed forms, the identity of the two criteria, extreme scales and
+// edges.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -94,7 +95,8 @@ TEST_CASE("the chosen step meets its criterion, at every scale of the log-likeli
                      WithinRel(1.0, criterion_tolerance));
           CHECK(t.coefficient_of_variation == tmcmc::coefficient_of_variation(l, t.step, deviation));
         }
-        // The step is of the order of 1/scale: of 1e-10 to 1e-12 where log-likelihoods are 1e10 to 1e12.
+        // The step is of the order of 1/scale: of 1e-10 to 1e-12 where log-likelihoods are 1e10 to
+        // 1e12.
         CHECK(choose_step(l, 1.0, cov_rule(1.0)).step * scale > 0.1);
         CHECK(choose_step(l, 1.0, cov_rule(1.0)).step * scale < 50.0);
       }

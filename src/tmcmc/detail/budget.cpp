@@ -9,12 +9,12 @@ namespace tmcmc::detail {
 
 namespace {
 
-/// Growth of beta that is assumed after the first stage, since there is no earlier temperature to compare
-/// with.
+/// Growth of beta that is assumed after the first stage, since there is no earlier temperature to
+/// compare with.
 constexpr double first_growth = 2.0;
 
-/// Number of stages after the one from `beta` to `next`, if log(beta) continues to grow by as much as in
-/// this stage.
+/// Number of stages after the one from `beta` to `next`, if log(beta) continues to grow by as much
+/// as in this stage.
 double stages_after(double beta, double next) {
   const double growth = portable_math::log(beta > 0.0 ? next / beta : first_growth);
   return std::max(std::ceil(-portable_math::log(next) / std::max(growth, 1e-3)), 1.0);

@@ -17,9 +17,10 @@ struct StageSteps {
   Index most = 0;
 };
 
-/// Steps of the stage from `from` to the temperature `next`: as given in the options, or in the last stage
-/// as many as the budget holds. Before the last stage, waste-free chains share the budget with the stages
-/// that are expected to follow, so that the number of stages does not decide whether beta = 1 is reached.
+/// Steps of the stage from `from` to the temperature `next`: as given in the options, or in the
+/// last stage as many as the budget holds. Before the last stage, waste-free chains share the
+/// budget with the stages that are expected to follow, so that the number of stages does not decide
+/// whether beta = 1 is reached.
 [[nodiscard]] StageSteps steps_of(const Options& options, const State& from, double next);
 
 /// Whether the budget holds the stage from `from` to the temperature `next`.

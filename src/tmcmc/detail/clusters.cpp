@@ -37,8 +37,8 @@ void take_nearer(Index n, Index k, const double* least, const double* before, In
   }
 }
 
-/// Weighted k-means++: rows, each drawn with probability proportional to weight times squared distance from
-/// the previous rows.
+/// Weighted k-means++: rows, each drawn with probability proportional to weight times squared
+/// distance from the previous rows.
 std::vector<Index> first_centres(const Population& white, const Eigen::VectorXd& weights, Index components,
                                  const StreamKey& key, std::uint32_t stage) {
   const Index n = white.rows();

@@ -9,7 +9,8 @@
 
 namespace tmcmc::detail {
 
-/// The number of the cluster of each point: weighted k-means++ (Arthur and Vassilvitskii 2007), then a few of Lloyd's iterations.
+/// The number of the cluster of each point: weighted k-means++ (Arthur and Vassilvitskii 2007),
+/// then a few of Lloyd's iterations.
 /// \param white  n x d, in coordinates in which distances are meaningful
 /// \param weights  n, not negative, not all zero
 /// \param components  largest number of clusters; some may be empty

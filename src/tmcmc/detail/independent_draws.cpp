@@ -39,10 +39,10 @@ double effective_share(const Criterion& criterion) {
   return 1.0 / (1.0 + target * target);
 }
 
-/// Settings for each of the two searches: populations of 200 draws, or 40 d, if the evaluations suffice for
-/// 20 of them in addition to 600 draws. Smaller populations reach the posterior sooner, but lose modes. A
-/// fit after each half of a population wastes fewer draws on an old fit, but a fit after fewer than 100
-/// draws loses modes.
+/// Settings for each of the two searches: populations of 200 draws, or 40 d, if the evaluations
+/// suffice for 20 of them in addition to 600 draws. Smaller populations reach the posterior sooner,
+/// but lose modes. A fit after each half of a population wastes fewer draws on an old fit, but a
+/// fit after fewer than 100 draws loses modes.
 SearchOptions search_options(const Options& options, const IndependentDraws& settings, Index dimension) {
   const auto all = static_cast<double>(options.evaluation_budget);
   const auto d = static_cast<double>(dimension);
@@ -64,7 +64,7 @@ SearchOptions search_options(const Options& options, const IndependentDraws& set
           .batch_rows = options.batch_rows};
 }
 
-/// The fit with shares of the tempered fits, if there are any, of wider components, and of the prior.
+/// The fit with shares of the tempered fits (if there are any), wider components and the prior.
 ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMixture& fit,
                               const std::array<Search, 2>& searches) {
   const StudentMixture& a = searches[0].tempered;
@@ -78,8 +78,8 @@ ReferenceDensity reference_of(const IndependentDraws& settings, const StudentMix
   return reference;
 }
 
-/// The points of both, each with their own weights. Since a density is fitted to them, and no more, the evidence of one search
-/// need not be known relative to that of the other.
+/// The points of both, each with their own weights. Since a density is fitted to them, and no more,
+/// the evidence of one search need not be known relative to that of the other.
 WeightedPoints united(const WeightedPoints& a, const WeightedPoints& b) {
   if (a.points.rows() == 0 || b.points.rows() == 0) {
     return a.points.rows() == 0 ? b : a;
@@ -92,8 +92,8 @@ WeightedPoints united(const WeightedPoints& a, const WeightedPoints& b) {
   return all;
 }
 
-/// Share of the posterior mass, evaluated at up to 1000 of the draws, where a search has made fewer than 8
-/// draws per unit of mass.
+/// Share of the posterior mass, evaluated at up to 1000 of the draws, where a search has made fewer
+/// than 8 draws per unit of mass.
 double missed_mass(const Search& search, const ReferenceDraws& draws, const Eigen::VectorXd& weights,
                    double log_evidence, int threads, const std::function<void()>& look) {
   constexpr Index most_points = 1000;
@@ -173,7 +173,8 @@ std::vector<Warning> warnings_of(const MeasuredPosterior& measured) {
   return warnings;
 }
 
-/// The options for the remaining evaluations: without the finish, and with a proportional number of samples.
+/// The options for the remaining evaluations: without the finish, and with a proportional number of
+/// samples.
 Options options_for_the_rest(Options options, Index evaluations) {
   const auto* waste_free = std::get_if<WasteFree>(&options.move);
   const Index chains = waste_free != nullptr ? waste_free->chains : 1;

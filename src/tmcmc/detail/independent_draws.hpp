@@ -1,6 +1,6 @@
 /// \file
-/// A posterior measured by independent draws: a search finds it, then a density that was fitted to it is
-/// frozen and drawn from (tmcmc::IndependentDraws).
+/// A posterior measured by independent draws: a search finds it, then a density that was fitted to
+/// it is frozen and drawn from (tmcmc::IndependentDraws).
 #pragma once
 
 #include <array>
@@ -25,11 +25,11 @@ struct MeasuredPosterior {
   double effective_sample_size = 0.0;
   /// k-hat of the largest weights, see pareto_shape().
   double pareto_shape = 0.0;
-  /// Number of separate modes that the searches have found or that the fit has; at least 2 if a search has
-  /// ended below beta = 1, since its fits may have merged two modes.
+  /// Number of separate modes that the searches have found or that the fit has; at least 2 if a
+  /// search has ended below beta = 1, since its fits may have merged two modes.
   Index modes = 1;
-  /// Effective draws from which beta was chosen; with several modes, the number for each of them and one
-  /// more.
+  /// Effective draws from which beta was chosen; with several modes, the number for each of them
+  /// and one more.
   double draws_a_mode = 0.0;
   /// Number of draws of both searches.
   Index search_draws = 0;

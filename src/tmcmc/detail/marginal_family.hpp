@@ -34,7 +34,8 @@ inline double normal_cdf(double z) {
   return 0.5 * boost::math::erfc(-z * 0.70710678118654752440, Policy());
 }
 
-/// -log(1 - p), with a small relative error for small p (Kahan's correction of the rounding of 1 - p).
+/// -log(1 - p), with a small relative error for small p (Kahan's correction of the rounding of 1 -
+/// p).
 inline double minus_log_complement(double p) {
   const double q = 1.0 - p;
   return q == 1.0 ? p : -portable_math::log(q) * (p / (1.0 - q));
@@ -50,10 +51,14 @@ class MarginalFamily {
   [[nodiscard]] virtual bool has_variance() const { return true; }
   virtual void add_log_kernel(const double* x, std::size_t n, double* sum) const = 0;
   [[nodiscard]] virtual double log_constant() const = 0;
-  [[nodiscard]] virtual double cdf(double x) const = 0;                  ///< x inside the support
-  [[nodiscard]] virtual double complement(double x) const = 0;           ///< x inside the support
-  [[nodiscard]] virtual double quantile(double p) const = 0;             ///< p in (0, 1)
-  [[nodiscard]] virtual double complement_quantile(double q) const = 0;  ///< x with P(X > x) = q
+  /// x inside the support.
+  [[nodiscard]] virtual double cdf(double x) const = 0;
+  /// x inside the support.
+  [[nodiscard]] virtual double complement(double x) const = 0;
+  /// p in (0, 1).
+  [[nodiscard]] virtual double quantile(double p) const = 0;
+  /// x with P(X > x) = q.
+  [[nodiscard]] virtual double complement_quantile(double q) const = 0;
   [[nodiscard]] virtual double normal_score(double x) const {
     const double p = cdf(x);
     return p <= 0.5 ? portable_math::normal_quantile(p) : -portable_math::normal_quantile(complement(x));
@@ -70,8 +75,8 @@ class MarginalFamily {
 };
 
 /// A family implemented by a function add_kernel(derived, x, n, sum) next to it, which adds
-/// Derived::log_kernel(x[i]) to each sum[i]. The function is a free function so that it can be compiled for
-/// each instruction set.
+/// Derived::log_kernel(x[i]) to each sum[i]. The function is a free function so that it can be
+/// compiled for each instruction set.
 template <class Derived>
 class FamilyOf : public MarginalFamily {
  public:
@@ -80,8 +85,8 @@ class FamilyOf : public MarginalFamily {
   }
 };
 
-/// The loop of add_kernel(), which is inlined into it; log_kernel() gives minus infinity outside the
-/// support.
+/// The loop of add_kernel(), which is inlined into it; log_kernel() gives minus infinity outside
+/// the support.
 template <class Derived>
 PORTABLE_MATH_INLINE void add_each(const Derived& family, const double* x, std::size_t n, double* sum) {
   const Derived self = family;  // a copy that nothing else points to stays in registers

@@ -15,8 +15,8 @@ namespace {
 
 using Lanes = ProposalLanes::Lanes;
 
-/// Number of lanes that a loop over `count` chains processes: whole vectors of any instruction set. The
-/// contents of surplus lanes are not used.
+/// Number of lanes that a loop over `count` chains processes: whole vectors of any instruction set.
+/// The contents of surplus lanes are not used.
 constexpr std::size_t in_vectors(std::size_t count) {
   return (count + 7) / 8 * 8;
 }
@@ -59,8 +59,8 @@ void check_bounds(const Lanes& x, double low, double high, std::size_t count, La
   }
 }
 
-/// Replaces z by the step in units of the factor's columns, and adds the contribution of an independent draw
-/// to log_correction.
+/// Replaces z by the step in units of the factor's columns, and adds the contribution of an
+/// independent draw to log_correction.
 PORTABLE_MATH_MULTIVERSION
 void step_of(double unit, const Lanes& y, const Lanes& chosen, const Lanes& independent,
              const Lanes& walk_scale, std::size_t count, Lanes& z, Lanes& log_correction) {

@@ -24,8 +24,9 @@ enum class Boundary {
 ///     random walk:  u' = u + scale * factor * z_S
 ///     independent:  u' = u + L (z_S - y_S),  y = L^-1 (u - centre),
 ///
-/// where z is standard normal. The independent proposal draws the whitened coordinates in S anew from the
-/// normal distribution that was fitted to the population; its acceptance ratio is multiplied by exp((|z_S|^2
+/// where z is standard normal. The independent proposal draws the whitened coordinates in S anew
+/// from the normal distribution that was fitted to the population; its acceptance ratio is
+/// multiplied by exp((|z_S|^2
 /// - |y_S|^2) / 2).
 struct MetropolisKernel {
   /// Lower triangular factor, d x d.
@@ -42,8 +43,9 @@ struct MetropolisKernel {
   bool divide_by_sqrt_size = false;
   /// Probability that a proposal is independent.
   double independent_fraction = 0.0;
-  /// Whether S consists of one coordinate chosen at random, and each other coordinate with a probability
-  /// that is itself drawn from 1, 1/2, 1/4, ... down to 1/d; otherwise S consists of all coordinates.
+  /// Whether S consists of one coordinate chosen at random, and each other coordinate with a
+  /// probability that is itself drawn from 1, 1/2, 1/4, ... down to 1/d; otherwise S consists of
+  /// all coordinates.
   bool random_subsets = false;
   /// See Coordinates.
   Coordinates coordinates = Coordinates::natural;
@@ -75,20 +77,21 @@ class ProposalLanes {
   ProposalLanes(const ProposalLanes&) = delete;
   ProposalLanes& operator=(const ProposalLanes&) = delete;
 
-  /// Draws the random numbers for the proposals of `count` rows, and the log-uniforms of the acceptance if
-  /// log_uniforms is given.
+  /// Draws the random numbers for the proposals of `count` rows, and the log-uniforms of the
+  /// acceptance if log_uniforms is given.
   void draw(const StreamKey& key, const DrawId& id, const MetropolisKernel& kernel, const RowIds& rows,
             std::size_t count, Lanes* log_uniforms);
 
   /// Makes the proposals from the rows of `points`.
-  /// \param log_prior  Prior::log_kernel() of the rows of `points` by their number; NaN where it is still to
-  ///        be computed, and the computed value is stored there. Not used with a box
+  /// \param log_prior  Prior::log_kernel() of the rows of `points` by their number; NaN where it is
+  ///        still to be computed, and the computed value is stored there. Not used with a box
   void propose(const MetropolisKernel& kernel, const Prior& prior, const Population& points,
                const RowIds& rows, std::size_t count, Eigen::VectorXd& log_prior);
 
   /// Marks the proposals at which the prior has a density, adds the ratio of the prior densities to
   /// log_correction(), and returns the number of marked proposals.
-  /// \throws SamplingError if a user-defined prior gives NaN, or no density at a point that it has drawn
+  /// \throws SamplingError if a user-defined prior gives NaN, or no density at a point that it has
+  ///         drawn
   std::size_t check(const Prior& prior, std::size_t count);
 
   /// Whether check() has found a prior density at the proposal of a chain.
@@ -99,8 +102,8 @@ class ProposalLanes {
   [[nodiscard]] const Lanes& independent() const { return independent_; }
   /// Prior::log_kernel() of the proposals that check() has found inside; not with a box.
   [[nodiscard]] const Lanes& log_prior() const { return proposed_log_prior_; }
-  /// Logarithm of the factor by which the ratio of the likelihoods is multiplied: the Jacobian and the
-  /// ratios of prior and proposal densities.
+  /// Logarithm of the factor by which the ratio of the likelihoods is multiplied: the Jacobian and
+  /// the ratios of prior and proposal densities.
   [[nodiscard]] const Lanes& log_correction() const { return log_correction_; }
 
  private:
@@ -113,12 +116,18 @@ class ProposalLanes {
 
   Index dimension_;
   std::array<WordLanes, 4> words_{};
-  std::vector<Lanes> z_;                // standard normals
-  std::vector<Lanes> x_;                // proposals
-  std::vector<Lanes> y_;                // whitened coordinates
-  std::vector<Lanes> chosen_;           // 1 for coordinates in S
-  std::vector<const double*> columns_;  // columns of x_
-  Lanes log_prior_{};                   // log_kernel() at the current states
+  // standard normals
+  std::vector<Lanes> z_;
+  // proposals
+  std::vector<Lanes> x_;
+  // whitened coordinates
+  std::vector<Lanes> y_;
+  // 1 for coordinates in S
+  std::vector<Lanes> chosen_;
+  // columns of x_
+  std::vector<const double*> columns_;
+  // log_kernel() at the current states
+  Lanes log_prior_{};
   Lanes proposed_log_prior_{};
   Lanes independent_{};
   Lanes walk_scale_{};

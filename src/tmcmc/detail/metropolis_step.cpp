@@ -52,13 +52,14 @@ struct Mover::Block {
   }
 
   /// Makes one proposal for each of the first `row_count` rows. Proposals inside the support become
-  /// candidates; the rows of the other proposals move to the front. Returns the number of these rows.
+  /// candidates; the rows of the other proposals move to the front. Returns the number of these
+  /// rows.
   std::size_t propose(const MetropolisKernel& kernel, const Prior& prior, const StreamKey& key,
                       const DrawId& id, std::size_t row_count, const Population& points,
                       Eigen::VectorXd& log_prior_of_points, MoveCounts& counts);
 
-  /// Moves the rows of accepted candidates to the candidates' values, and returns the numbers of the
-  /// accepted candidates.
+  /// Moves the rows of accepted candidates to the candidates' values, and returns the numbers of
+  /// the accepted candidates.
   std::span<const Index> accept(double beta, Population& points, Eigen::VectorXd& log_likelihood,
                                 MoveCounts& counts);
 
@@ -172,8 +173,8 @@ MoveCounts Mover::step(const MetropolisKernel& kernel, std::span<const Index> ro
   return total;
 }
 
-/// Forgets the prior density of rows that the caller has changed since it was computed: at the start of a
-/// stage all rows.
+/// Forgets the prior density of rows that the caller has changed since it was computed: at the
+/// start of a stage all rows.
 void Mover::forget_moved_rows(const Index* rows, Index begin, Index end, const Population& points) {
   for (Index i = begin; i < end; ++i) {
     const Index row = rows == nullptr ? i : rows[i];

@@ -32,20 +32,21 @@ struct MoveCounts {
 class Mover {
  public:
   /// \param threads  number of threads over blocks of rows
-  /// \param batch_rows  largest number of rows in a call of the log-likelihood; 0: one call per thread and
-  ///        step
+  /// \param batch_rows  largest number of rows in a call of the log-likelihood; 0: one call per
+  ///        thread and step
   Mover(const LogLikelihood& log_likelihood, const Prior& prior, const StreamKey& key, int threads,
         Index batch_rows);
   ~Mover();
   Mover(const Mover&) = delete;
   Mover& operator=(const Mover&) = delete;
 
-  /// One Metropolis step of the chains in the given rows, in place: a proposal theta' of the kernel is
-  /// accepted with probability min(1, (L(theta') / L(theta))^beta c), where c is the ratio of the prior
-  /// densities times the correction for coordinates and proposal densities. The draws depend only on key,
-  /// stage, row and `draw`.
+  /// One Metropolis step of the chains in the given rows, in place: a proposal theta' of the kernel
+  /// is accepted with probability min(1, (L(theta') / L(theta))^beta c), where c is the ratio of
+  /// the prior densities times the correction for coordinates and proposal densities. The draws
+  /// depend only on key, stage, row and `draw`.
   /// \param rows  rows to move, each at most once; empty: all rows
-  /// \throws SamplingError if a log-likelihood is NaN or plus infinity, or if max_redraws is exceeded.
+  /// \throws SamplingError if a log-likelihood is NaN or plus infinity, or if max_redraws is
+  ///         exceeded.
   MoveCounts step(const MetropolisKernel& kernel, std::span<const Index> rows, std::uint32_t draw,
                   Population& points, Eigen::VectorXd& log_likelihood);
 
@@ -61,8 +62,10 @@ class Mover {
   StreamKey key_;
   int threads_;
   Index batch_rows_;
-  Population known_points_;    // points to which log_prior_ belongs, by row
-  Eigen::VectorXd log_prior_;  // Prior::log_kernel() of these points; NaN if not known
+  // points to which log_prior_ belongs, by row
+  Population known_points_;
+  // Prior::log_kernel() of these points; NaN if not known
+  Eigen::VectorXd log_prior_;
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 

@@ -10,11 +10,16 @@ namespace tmcmc::detail {
 
 /// One component ready for use.
 struct Component {
-  const double* mean;    ///< d
-  const double* factor;  ///< d x d, by columns
-  double log_constant;   ///< log of (weight times density at the mean), without a wider part
-  double narrow = 0.0;   ///< this constant relative to the largest, for the narrow part
-  double wide = 0.0;     ///< this constant relative to the largest, for the wider part
+  /// d.
+  const double* mean;
+  /// d x d, by columns.
+  const double* factor;
+  /// log of (weight times density at the mean), without a wider part.
+  double log_constant;
+  /// This constant relative to the largest, for the narrow part.
+  double narrow = 0.0;
+  /// This constant relative to the largest, for the wider part.
+  double wide = 0.0;
 };
 
 /// The components of a mixture, without narrow and wide set.

@@ -21,9 +21,9 @@ struct Pulled {
   double degrees_of_freedom;
 };
 
-/// All sums at once, for so few coordinates that they stay in registers: taken, pull, and for each j the
-/// first moment and the second moments with each l <= j. The sums are in eight interleaved partial sums, as
-/// in portable_math::sum_of.
+/// All sums at once, for so few coordinates that they stay in registers: taken, pull, and for each
+/// j the first moment and the second moments with each l <= j. The sums are in eight interleaved
+/// partial sums, as in portable_math::sum_of.
 template <int d>
 PORTABLE_MATH_INLINE void sums_of_few(const MomentPoints& block, const Pulled& component, double* sums) {
   constexpr int count = 2 + d + d * (d + 1) / 2;

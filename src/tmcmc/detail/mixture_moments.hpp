@@ -6,24 +6,30 @@
 
 namespace tmcmc::detail {
 
-/// Sums of one component over points, with deviations from the component's mean before a step of the fit.
-/// The pull of a point is the part of it that is assigned to the component, times (nu + d) / (nu +
-/// distance).
+/// Sums of one component over points, with deviations from the component's mean before a step of
+/// the fit. The pull of a point is the part of it that is assigned to the component, times (nu + d)
+/// / (nu + distance).
 struct Moments {
-  double taken = 0.0;      ///< sum of the assigned parts of the points
-  double pull = 0.0;       ///< sum of the pulls
-  Eigen::VectorXd first;   ///< sum of the pulls times the deviations
-  Eigen::MatrixXd second;  ///< lower triangle of the sum of the pulls times the products of two deviations
+  /// Sum of the assigned parts of the points.
+  double taken = 0.0;
+  /// Sum of the pulls.
+  double pull = 0.0;
+  /// Sum of the pulls times the deviations.
+  Eigen::VectorXd first;
+  /// Lower triangle of the sum of the pulls times the products of two deviations.
+  Eigen::MatrixXd second;
 
   explicit Moments(Index d) : first(Eigen::VectorXd::Zero(d)), second(Eigen::MatrixXd::Zero(d, d)) {}
 };
 
 /// Points of a block, as evaluated in MixtureTerms.
 struct MomentPoints {
-  const double* points;  ///< first coordinate of the first point; coordinate j is j * stride further on
+  /// First coordinate of the first point; coordinate j is j * stride further on.
+  const double* points;
   Index stride;
   Index rows;
-  const double* unit;  ///< for each point: the part unit * term is assigned to a component
+  /// For each point: the part unit * term is assigned to a component.
+  const double* unit;
 };
 
 /// Adds the points to the moments of component k of a mixture without wider parts.

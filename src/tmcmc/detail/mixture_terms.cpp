@@ -33,9 +33,9 @@ PORTABLE_MATH_INLINE double student_power(double base) {
   return d % 2 == 0 ? whole : whole * std::sqrt(base);
 }
 
-/// Terms of one component for so few coordinates that the coordinates of a point stay in registers, with
-/// distance = |L^-1 (z - m)|^2 by forward substitution: term = narrow (1 + distance / 8)^(-(8 + d) / 2) +
-/// wide (1 + distance / (8 c^2))^(-(8 + d) / 2); sum += term.
+/// Terms of one component for so few coordinates that the coordinates of a point stay in registers,
+/// with distance = |L^-1 (z - m)|^2 by forward substitution: term = narrow (1 + distance / 8)^(-(8
+/// + d) / 2) + wide (1 + distance / (8 c^2))^(-(8 + d) / 2); sum += term.
 /// \param inverse_square  1 / c^2
 template <int d, bool has_wide>
 PORTABLE_MATH_INLINE void terms_of_few(const double* __restrict points, Index stride, Index rows,
@@ -109,7 +109,8 @@ void squared_distances(const double* points, Index stride, Index rows, Index d, 
   }
 }
 
-/// term += factor (1 + distance / nu)^(-twice_exponent / 2), by repeated squaring; the same is added to sum.
+/// term += factor (1 + distance / nu)^(-twice_exponent / 2), by repeated squaring; the same is
+/// added to sum.
 PORTABLE_MATH_MULTIVERSION
 void add_powers(Index rows, double factor, double inverse_nu, Index twice_exponent, const double* distances,
                 double* term, double* sum) {

@@ -110,8 +110,8 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& factor, Eigen::VectorXd b) {
   return b;
 }
 
-/// Whether the density along Fisher's discriminant falls, between the medians of both parts, to less than a
-/// fifth of the density around the lower of the two medians.
+/// Whether the density along Fisher's discriminant falls, between the medians of both parts, to
+/// less than a fifth of the density around the lower of the two medians.
 bool is_valley_between(const WeightedPoints& points, const Part& a, const Part& b) {
   const Index d = points.white.cols();
   const Eigen::VectorXd mean_a = mean_of(points, a);

@@ -10,8 +10,10 @@ namespace tmcmc::detail {
 
 /// Points and their weights.
 struct WeightedPoints {
-  Population white;             ///< n x d, distinct, in coordinates in which distances are meaningful
-  std::vector<double> weights;  ///< n, positive, with the sum 1
+  /// n x d, distinct, in coordinates in which distances are meaningful.
+  Population white;
+  /// n, positive, with the sum 1.
+  std::vector<double> weights;
 };
 
 /// The part to which each point belongs, numbered from 0, as find_modes() separates them.

@@ -44,8 +44,8 @@ std::vector<Index> chain_lengths(std::span<const Index> sorted_ancestors) {
   return lengths;
 }
 
-/// Chains of unequal length: the ancestors are sorted, so a chain fills consecutive rows, and its k-th state
-/// starts from the state in the row before.
+/// Chains of unequal length: the ancestors are sorted, so a chain fills consecutive rows, and its
+/// k-th state starts from the state in the row before.
 StageMoves grow_chains(const MetropolisKernel& kernel, std::span<const Index> ancestors, Walkers& walkers,
                        Mover& mover) {
   struct Chain {

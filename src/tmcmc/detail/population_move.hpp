@@ -1,5 +1,6 @@
 /// \file
-/// The moves of a stage from its starts: the chains of each Move, and the adaptation of the proposal scale.
+/// The moves of a stage from its starts: the chains of each Move, and the adaptation of the
+/// proposal scale.
 #pragma once
 
 #include <vector>
@@ -39,10 +40,10 @@ struct StageMoves {
 /// Moves the starts of a stage.
 /// \param kernels  their scale is adapted (TargetAcceptance)
 /// \param steps   Metropolis steps of each chain; not used by growing chains
-/// \param most_steps  if more than `steps`, resample-move continues after `steps` steps as specified by
-///        ResampleMove::mixing_correlation
-/// \param walkers  in: the starts, which for growing chains are in ascending order of their `ancestors`; out:
-///        the population, which for waste-free has (steps + 1) times as many rows
+/// \param most_steps  if more than `steps`, resample-move continues after `steps` steps as
+///        specified by ResampleMove::mixing_correlation
+/// \param walkers  in: the starts, which for growing chains are in ascending order of their
+///        `ancestors`; out: the population, which for waste-free has (steps + 1) times as many rows
 StageMoves move_population(const Options& options, StageKernels& kernels, std::span<const Index> ancestors,
                            Index steps, Index most_steps, Walkers& walkers, Mover& mover,
                            StageMoveWorkspace& work);

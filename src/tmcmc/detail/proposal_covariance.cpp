@@ -86,8 +86,8 @@ Eigen::MatrixXd proposal_covariance(const Population& points, ConstDoubles weigh
 
 Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance) {
   constexpr double rounding = 1e-12;
-  // A pivot just above `rounding` is accurate to three digits, and so are the pivots after it, which may
-  // become negative.
+  // A pivot just above `rounding` is accurate to three digits, and so are the pivots after it,
+  // which may become negative.
   constexpr double rounding_behind_small_pivots = 1e-2;
   const Index d = covariance.rows();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(d, d);

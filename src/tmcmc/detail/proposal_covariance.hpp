@@ -21,8 +21,9 @@ namespace tmcmc::detail {
 
 /// Lower triangular factor of a positive semidefinite matrix: a direction of zero variance gets a
 /// zero column. Plain loops, since the order of Eigen's sums depends on the instruction set.
-/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding. Without pivoting,
-///         rounding can reach 1e-2 of the variance after a direction of almost zero variance.
+/// \throws SamplingError if an entry is not finite or a pivot is negative beyond rounding. Without
+///         pivoting, rounding can reach 1e-2 of the variance after a direction of almost zero
+///         variance.
 [[nodiscard]] Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& covariance);
 
 }  // namespace tmcmc::detail

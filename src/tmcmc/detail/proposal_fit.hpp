@@ -8,9 +8,9 @@
 
 namespace tmcmc::detail {
 
-/// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that was fitted
-/// to the odd chains, and vice versa, unless one half of the weights is too small for its covariance. The
-/// caller sets beta.
+/// The kernels of a stage. With cross_fit the starts whose parent chain is even get a kernel that
+/// was fitted to the odd chains, and vice versa, unless one half of the weights is too small for
+/// its covariance. The caller sets beta.
 /// \param weights  weights of the rows of `from`, with the sum weight_sum
 /// \param ancestors  row of `from` from which each chain starts
 /// \throws SamplingError if a covariance is not finite.

@@ -1,6 +1,6 @@
 /// \file
-/// A log-likelihood that remembers its evaluations, so that a run that was stopped can be repeated without
-/// evaluating the same points again.
+/// A log-likelihood that remembers its evaluations, so that a run that was stopped can be repeated
+/// without evaluating the same points again.
 #pragma once
 
 #include <mutex>
@@ -14,12 +14,13 @@ namespace tmcmc::detail {
 /// Called with all points that have been evaluated so far.
 using EvaluationObserver = std::function<void(const Walkers& evaluated)>;
 
-/// Values of known points are taken from memory; other points are evaluated, in calls of at most `rows`
-/// points, and remembered. May be called concurrently.
+/// Values of known points are taken from memory; other points are evaluated, in calls of at most
+/// `rows` points, and remembered. May be called concurrently.
 class RecordedLikelihood {
  public:
   /// \param known  points with their log-likelihoods from an earlier run
-  /// \param rows  number of new points between two calls of the observer, and largest number in one call
+  /// \param rows  number of new points between two calls of the observer, and largest number in one
+  ///        call
   /// \param observer  may be empty
   RecordedLikelihood(const LogLikelihood& log_likelihood, const Walkers& known, Index rows,
                      EvaluationObserver observer);

@@ -27,8 +27,8 @@ Total total_of(ConstDoubles weights) {
   return total;
 }
 
-/// Sets ancestors[k] to the sample at which the cumulative weight reaches threshold(k), which must ascend
-/// with k.
+/// Sets ancestors[k] to the sample at which the cumulative weight reaches threshold(k), which must
+/// ascend with k.
 template <class Threshold>
 void invert(ConstDoubles weights, std::size_t last_positive, std::span<Index> ancestors,
             Threshold threshold) {
@@ -53,7 +53,8 @@ void exponentials(const std::array<std::uint64_t, 4 * lanes>& words,
   }
 }
 
-/// Multinomial resampling with sorted uniform numbers, which are partial sums of exponential spacings.
+/// Multinomial resampling with sorted uniform numbers, which are partial sums of exponential
+/// spacings.
 void multinomial(ConstDoubles weights, const StreamKey& key, std::uint32_t stage, std::span<Index> ancestors,
                  std::vector<double>& partial_sums, int threads) {
   const std::size_t n = ancestors.size();

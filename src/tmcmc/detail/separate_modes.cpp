@@ -9,8 +9,8 @@ namespace {
 
 constexpr Index line_steps = 10;  // of a line between two means
 
-/// Whether the density falls nowhere far below the density at the ends, which are the first and the last of
-/// these rows.
+/// Whether the density falls nowhere far below the density at the ends, which are the first and the
+/// last of these rows.
 bool is_joined(const Eigen::VectorXd& log_densities, Index first) {
   const double log_twentieth = portable_math::log(0.05);
   const double lower_end = std::min(log_densities[first], log_densities[first + line_steps]);

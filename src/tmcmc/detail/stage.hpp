@@ -30,9 +30,12 @@ class Stage {
   const Options& options_;
   StreamKey key_;
   Mover mover_;
-  std::vector<double> weights_;   // weights of the rows of the population, relative to the largest
-  std::vector<double> by_chain_;  // the weights in the order of the chains
-  std::vector<Index> ancestors_;  // row from which each chain starts
+  // weights of the rows of the population, relative to the largest
+  std::vector<double> weights_;
+  // the weights in the order of the chains
+  std::vector<double> by_chain_;
+  // row from which each chain starts
+  std::vector<Index> ancestors_;
   ResamplingWorkspace resampling_;
   StageMoveWorkspace moves_;
 };

@@ -24,8 +24,8 @@ void leave_box(double low, double high, std::size_t count, Lanes& x, Lanes& log_
   }
 }
 
-/// The inverse transformation, from u; log(dx/du) is added to log_jacobian. A value that rounds to a bound
-/// counts as outside.
+/// The inverse transformation, from u; log(dx/du) is added to log_jacobian. A value that rounds to
+/// a bound counts as outside.
 PORTABLE_MATH_MULTIVERSION
 void enter_box(double low, double high, std::size_t count, Lanes& x, Lanes& log_jacobian) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -38,8 +38,8 @@ void enter_box(double low, double high, std::size_t count, Lanes& x, Lanes& log_
   }
 }
 
-/// Replaces x by u = log(x - bound), or u = -log(bound - x) for sign = -1; log(dx/du) is subtracted from
-/// log_jacobian.
+/// Replaces x by u = log(x - bound), or u = -log(bound - x) for sign = -1; log(dx/du) is subtracted
+/// from log_jacobian.
 PORTABLE_MATH_MULTIVERSION
 void leave_half_line(double bound, double sign, std::size_t count, Lanes& x, Lanes& log_jacobian) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -49,8 +49,8 @@ void leave_half_line(double bound, double sign, std::size_t count, Lanes& x, Lan
   }
 }
 
-/// The inverse transformation, from u; log(dx/du) is added to log_jacobian. A value that rounds to the bound
-/// or to infinity counts as outside.
+/// The inverse transformation, from u; log(dx/du) is added to log_jacobian. A value that rounds to
+/// the bound or to infinity counts as outside.
 PORTABLE_MATH_MULTIVERSION
 void enter_half_line(double bound, double sign, std::size_t count, Lanes& x, Lanes& log_jacobian) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,10 +1,12 @@
-// A run whose log-likelihood all ranks evaluate, with a checkpoint: what ranks.sh starts under mpirun.
+// A run whose log-likelihood all ranks evaluate, with a checkpoint: what ranks.sh starts under
+// mpirun.
 //
 //     shared_run MOVES FAULT OUTPUT CHECKPOINT
 //
-// MOVES: resample-move, threads (the same, with calls from three threads) or waste-free. FAULT: none; nan or throw, of every
-// point of a corner that many draws from the prior fall into; die:R:N, rank R kills itself at its N-th row. OUTPUT gets
-// the last checkpoint, and OUTPUT.rows.R the number of rows that rank R has evaluated.
+// MOVES: resample-move, threads (the same, with calls from three threads) or waste-free. FAULT:
+// none; nan or throw, of every point of a corner that many draws from the prior fall into; die:R:N,
+// rank R kills itself at its N-th row. OUTPUT gets the last checkpoint, and OUTPUT.rows.R the
+// number of rows that rank R has evaluated.
 
 #include <csignal>
 #include <cstdio>
