@@ -21,10 +21,9 @@ struct CornerSamples {
 
 /// Files, or none.
 struct CornerTables {
-  OptionalCsv
-      /// Of each pair: the middle of a cell, its density, and the probability of the cells at least
-      /// as dense.
-      joint;
+  /// Of each pair: the middle of a cell, its density, and the probability of the cells at least as
+  /// dense.
+  OptionalCsv joint;
   /// Of each parameter: bins with their density.
   OptionalCsv marginals;
   /// A row per parameter: moments, quantiles, the range that is drawn and its tics.

@@ -28,9 +28,8 @@ struct WorkerOptions {
   double timeout_seconds = 0.0;
   /// Called, from any thread, with a one-line reason when a worker is started to replace another.
   std::function<void(const std::string& reason)> on_restart = [](const std::string&) {};
-  std::size_t outputs =
-      /// Comma-separated numbers per line that it writes; 0: one number, the log-likelihood.
-      0;
+  /// Comma-separated numbers per line that it writes; 0: one number, the log-likelihood.
+  std::size_t outputs = 0;
 };
 
 /// The workers as a function of a batch of points, in the form of tmcmc::LogLikelihood. May be

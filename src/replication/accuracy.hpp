@@ -43,9 +43,8 @@ struct Accuracy {
   double evidence_rms = 0.0;
   /// The same for the sum of log-mean weights.
   double weight_evidence_rms = 0.0;
-  double standard_error_rms =
-      /// Root-mean-square of the runs' own standard errors; NaN without diagnose.
-      0.0;
+  /// Root-mean-square of the runs' own standard errors; NaN without diagnose.
+  double standard_error_rms = 0.0;
   /// Fraction of the runs with a warning.
   double warned = 0.0;
 };

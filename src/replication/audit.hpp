@@ -22,9 +22,8 @@ struct PointTest {
   double chi_squared = 0.0;
   /// Probability of a larger value, chi^2 with n degrees of freedom.
   double chi_squared_p = 0.0;
-  double likelihood_ratio =
-      /// (S(x) - S_min) / sigma^2: twice the log-likelihood ratio for known sigma.
-      0.0;
+  /// (S(x) - S_min) / sigma^2: twice the log-likelihood ratio for known sigma.
+  double likelihood_ratio = 0.0;
   /// chi^2 with 1 degree of freedom.
   double likelihood_ratio_p = 0.0;
   /// (n - 1) (S(x) - S_min) / S_min, which orders x in the same way as the likelihood ratio for

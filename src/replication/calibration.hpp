@@ -16,10 +16,9 @@ namespace replication {
 struct CalibrationOptions {
   /// Simulated data sets.
   tmcmc::Index replications = 2000;
-  tmcmc::Index draws =
-      /// Posterior draws among which the truth is ranked: evenly spaced rows of the final
-      /// population, or, if its samples are weighted, multinomial draws from it.
-      99;
+  /// Posterior draws among which the truth is ranked: evenly spaced rows of the final population,
+  /// or, if its samples are weighted, multinomial draws from it.
+  tmcmc::Index draws = 99;
   /// Bins of the rank histogram; must divide draws + 1.
   tmcmc::Index bins = 20;
   /// Of the simulated pairs and of the runs.
@@ -103,10 +102,8 @@ struct RankBin {
   double edge = 0.0;
   /// Share of the ranks below the edge, minus the edge.
   double ecdf_difference = 0.0;
-  double ecdf_band =
-      /// Uniform ranks: all differences at the edges of 20 bins lie within it with probability 99
-      /// %.
-      0.0;
+  /// Uniform ranks: all differences at the edges of 20 bins lie within it with probability 99 %.
+  double ecdf_band = 0.0;
 };
 /// The bins of a histogram, from low ranks to high ones.
 [[nodiscard]] std::vector<RankBin> rank_bins(const RankHistogram& histogram);

@@ -91,9 +91,8 @@ struct ClaimEvidence {
   Truth stated;
   /// P(F_mu > stated force) of the exact posterior.
   double exceedance = 0.0;
-  RankCorrelation
-      /// Over runs: iterations against the distance of the mean from the exact mean.
-      iterations_and_error;
+  /// Over runs: iterations against the distance of the mean from the exact mean.
+  RankCorrelation iterations_and_error;
   /// Median p-box area of independent draws, N.
   double floor_n = 0.0;
 };

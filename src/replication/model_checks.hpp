@@ -50,9 +50,8 @@ struct PhaseCheck {
   long compared = 0;
   /// Motions among the compared ones that stop.
   long stopping_below = 0;
-  double published_error_deg =
-      /// Largest error of the published phase between exact and published limit.
-      0.0;
+  /// Largest error of the published phase between exact and published limit.
+  double published_error_deg = 0.0;
   /// Smallest phase beyond the limit.
   double lowest_deg = 360.0;
   /// Largest phase beyond the limit.

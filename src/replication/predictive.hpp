@@ -21,10 +21,8 @@ using statistics::log_multinomial;
 /// Logarithm of the predictive density of a column, in two parts. Their sum ignores the dependence
 /// between the parts, which is present in the studies with which the sum is compared.
 struct LogDensity {
-  double areas =
-      /// Normal in the logarithms of the areas, with the moments and the correlation of the
-      /// studies.
-      0.0;
+  /// Normal in the logarithms of the areas, with the moments and the correlation of the studies.
+  double areas = 0.0;
   /// Multinomial, with the shares of all runs of the studies.
   double counts = 0.0;
 

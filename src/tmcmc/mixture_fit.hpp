@@ -28,9 +28,8 @@ struct MixtureFitOptions {
   int most_iterations = 8;
   /// A smaller gain of the mean log-density ends the iteration.
   double tolerance = 3e-3;
-  double gain_of_component =
-      /// Smallest gain of the held-out mean log-density for which more components are used.
-      0.005;
+  /// Smallest gain of the held-out mean log-density for which more components are used.
+  double gain_of_component = 0.005;
 };
 
 /// Maximum-likelihood fit of `components` components by expectation-maximisation with the parameter

@@ -119,9 +119,8 @@ class Prior {
   std::vector<std::string> names_;
   std::vector<std::string> units_;
   std::vector<Marginal> marginals_;
-  Eigen::MatrixXd
-      // Cholesky factor of the correlation matrix of the normal scores; empty for independence
-      factor_;
+  // Cholesky factor of the correlation matrix of the normal scores; empty for independence
+  Eigen::MatrixXd factor_;
   // whether each parameter is correlated with another; empty for independence
   std::vector<char> correlated_;
   std::shared_ptr<const OwnPrior> own_;
