@@ -15,7 +15,8 @@ namespace tmcmc {
 
 /// Calls body(block, begin, end) for each block of at most block_size indices of [0, n), on up to
 /// `threads` threads. If some calls throw, the exception of the lowest block is rethrown after all
-/// calls that have begun have ended; blocks above one that threw may never begin.
+/// calls that have begun have ended. Blocks begin in ascending order, and none begins once a lower
+/// one has thrown.
 template <class Body>
 void for_each_block(Index n, Index block_size, int threads, Body body) {
   const Index blocks = (n + block_size - 1) / block_size;
@@ -27,14 +28,15 @@ void for_each_block(Index n, Index block_size, int threads, Body body) {
   }
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(blocks));
   std::atomic<Index> failed{blocks};  // lowest block that threw
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
+#pragma omp parallel for schedule(monotonic : dynamic) num_threads(threads)
   for (Index block = 0; block < blocks; ++block) {
     if (block > failed) continue;
     try {
       body(block, block * block_size, std::min(n, (block + 1) * block_size));
     } catch (...) {
       failures[static_cast<std::size_t>(block)] = std::current_exception();
-      failed = block;
+      for (Index lowest = failed; block < lowest && !failed.compare_exchange_weak(lowest, block);) {
+      }
     }
   }
   for (const auto& failure : failures) {
