@@ -1,10 +1,14 @@
 #include "models/parallel_batches.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "errors/invalid_value.hpp"
-#include "tmcmc/parallel.hpp"
 
 namespace models {
 namespace {
@@ -12,13 +16,58 @@ namespace {
 using tmcmc::Index;
 using Points = Eigen::Ref<const Eigen::MatrixXd>;
 
+/// Keeps the exception of the call with the lowest rows.
+class FirstFailure {
+ public:
+  void note(Index first_row) {
+    const std::lock_guard lock(mutex_);
+    has_failed_ = true;
+    if (!exception_ || first_row < first_row_) {
+      exception_ = std::current_exception();
+      first_row_ = first_row;
+    }
+  }
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+  void rethrow() const {
+    if (exception_) {
+      std::rethrow_exception(exception_);
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<bool> has_failed_ = false;
+  std::exception_ptr exception_;
+  Index first_row_ = 0;
+};
+
 /// Calls evaluate(first, count) for batches of n rows.
 template <class Evaluate>
 void for_batches(Index n, const ParallelOptions& options, const Evaluate& evaluate) {
   const Index share = (n + options.calls - 1) / options.calls;
-  const Index rows = options.batch_rows > 0 ? options.batch_rows : std::max<Index>(share, 1);
-  tmcmc::for_each_block(n, rows, options.calls,
-                        [&](Index, Index begin, Index end) { evaluate(begin, end - begin); });
+  const Index rows = options.batch_rows > 0 ? std::min(options.batch_rows, n) : share;
+  const Index batches = (n + rows - 1) / rows;
+  std::atomic<Index> next = 0;
+  FirstFailure failure;
+  const auto work = [&] {
+    for (Index batch = next++; batch < batches && !failure.has_failed(); batch = next++) {
+      const Index first = batch * rows;
+      const Index count = std::min(rows, n - first);
+      try {
+        evaluate(first, count);
+      } catch (...) {
+        failure.note(first);
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (Index i = 1; i < std::min<Index>(options.calls, batches); ++i) {
+      others.emplace_back(work);
+    }
+    work();
+  }
+  failure.rethrow();
 }
 
 void validate(const ParallelOptions& options) {
@@ -35,18 +84,22 @@ void validate(const ParallelOptions& options) {
 tmcmc::LogLikelihood parallel_batches(tmcmc::LogLikelihood model, const ParallelOptions& options) {
   validate(options);
   return [model = std::move(model), options](const Points& points, Eigen::Ref<Eigen::VectorXd> values) {
-    for_batches(points.rows(), options, [&](Index first, Index count) {
-      model(points.middleRows(first, count), values.segment(first, count));
-    });
+    if (points.rows() > 0) {
+      for_batches(points.rows(), options, [&](Index first, Index count) {
+        model(points.middleRows(first, count), values.segment(first, count));
+      });
+    }
   };
 }
 
 ForwardModel parallel_outputs(ForwardModel model, const ParallelOptions& options) {
   validate(options);
   return [model = std::move(model), options](const Points& points, Eigen::Ref<Eigen::MatrixXd> outputs) {
-    for_batches(points.rows(), options, [&](Index first, Index count) {
-      model(points.middleRows(first, count), outputs.middleRows(first, count));
-    });
+    if (points.rows() > 0) {
+      for_batches(points.rows(), options, [&](Index first, Index count) {
+        model(points.middleRows(first, count), outputs.middleRows(first, count));
+      });
+    }
   };
 }
 

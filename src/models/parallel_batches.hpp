@@ -22,7 +22,7 @@ struct ParallelOptions {
 ///
 /// For a run set Options::threads = 1 and Options::batch_rows = 0: the sampler then hands over
 /// whole batches. If calls fail, the returned function throws the exception of the failed call with
-/// the lowest rows, whatever the number of calls; after a failure no call with higher rows begins.
+/// the lowest rows; no call begins after a failure.
 /// \throws errors::InvalidValue for calls < 1 or batch_rows < 0.
 [[nodiscard]] tmcmc::LogLikelihood parallel_batches(tmcmc::LogLikelihood model,
                                                     const ParallelOptions& options);

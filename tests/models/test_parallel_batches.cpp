@@ -81,7 +81,7 @@ TEST_CASE("no call gets more rows than allowed, and so many run at a time", "[mo
   CHECK(longest == 2);
 }
 
-TEST_CASE("the failure of the lowest rows is thrown, and nothing higher begins after a failure",
+TEST_CASE("the failure of the lowest rows is thrown, and nothing begins after a failure",
           "[models][parallel]") {
   std::atomic<int> calls = 0;
   const auto model = [&](const Points& points, Values) {
