@@ -1,10 +1,8 @@
 // The exact posterior of Eq. 24 by quadrature, for any observations, prior and reading of the
-// physics: no sampler and no Monte Carlo error. Beside it the Laplace approximation and least
-// squares; and, given what sampling_study wrote, how far each sampler is from the exact answer
-// (bias, spread over the runs, effective sample size, log-evidence).
+// physics: no sampler and no Monte Carlo error. Beside it the Laplace approximation, least squares
+// and, given what sampling_study wrote, how far each sampler is from the exact answer.
 //
-// Data: Table 1 and the prior of Table 2 as printed in Lye and Marino (ESREL 2023), or the reader's
-// own.
+// Data: Tables 1 and 2 as printed in Lye and Marino (ESREL 2023), or the reader's own.
 
 #include <algorithm>
 #include <cmath>
