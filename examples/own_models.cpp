@@ -81,11 +81,7 @@ ComparedOutputs rig_outputs(const friction::Observations& measured, const fricti
 }
 
 Model friction_rig(const ProblemOptions& options) {
-  const std::string path = measurements_file(options);
-  const auto measured = replication::read_observations(path);
-  if (const auto doubt = friction::doubtful_unit_or_sign(measured.phase_deg); !doubt.empty()) {
-    command_line::warn(fmt::format("{}: column 'phase_deg': {}", io::printable(path, 200), doubt));
-  }
+  const auto measured = replication::read_observations(measurements_file(options), command_line::warn);
   const friction::Physics physics{.driving_force_n = options.driving_force_n};
   std::string description =
       fmt::format("friction, driving force {} N", io::format_number(options.driving_force_n));

@@ -95,8 +95,8 @@ class ProblemOptions {
   [[nodiscard]] tmcmc::Options sampler() const;
   /// The number of threads, with 0 resolved.
   [[nodiscard]] int thread_count() const;
-  /// Refuses a value of the problem file or the command line: "problem.toml:3: data.noise: value
-  /// 'x': expected ...".
+  /// Refuses a value of the problem file or the command line, such as
+  /// "problem.toml:3: data.noise: value 'x': expected ...".
   [[noreturn]] void refuse(const std::string& option, const std::string& expected) const;
 
  private:

@@ -39,12 +39,7 @@ bool is_table1(const std::string& observations) {
 }
 
 friction::Observations read_observations(const std::string& path) {
-  friction::Observations observations = replication::read_observations(path);
-  const std::string doubt = friction::doubtful_unit_or_sign(observations.phase_deg);
-  if (!doubt.empty()) {
-    warn(fmt::format("{}: column 'phase_deg': {}", io::printable(path, 200), doubt));
-  }
-  return observations;
+  return replication::read_observations(path, warn);
 }
 
 }  // namespace experiments

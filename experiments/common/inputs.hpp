@@ -50,7 +50,7 @@ struct ProblemInputs : InputFiles {
 /// Whether the path is that of the printed Table 1.
 [[nodiscard]] bool is_table1(const std::string& observations);
 
-/// As replication::read_observations; warns on stderr of phases whose unit or sign is doubtful.
+/// As replication::read_observations, with its warning on standard error.
 /// \throws io::InputError naming file, line, column and value.
 [[nodiscard]] friction::Observations read_observations(const std::string& path);
 

@@ -1,7 +1,5 @@
 #include "command_line/sampler_options.hpp"
 
-#include "errors/invalid_value.hpp"
-#include "names/names.hpp"
 #include "options.hpp"
 #include "tmcmc/option_table.hpp"
 

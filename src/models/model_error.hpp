@@ -22,8 +22,8 @@ class ModelError : public std::runtime_error {
 [[nodiscard]] std::string describe_point(const std::vector<std::string>& parameter_names,
                                          const Eigen::Ref<const Eigen::MatrixXd>& points, Eigen::Index row);
 
-/// Description of the point that represents a whole batch: "the first of 100 points (stiffness_1 =
-/// 0.9, stiffness_2 = 1.2)".
+/// Description of the point that represents a whole batch:
+/// "the first of 100 points (stiffness_1 = 0.9, stiffness_2 = 1.2)".
 [[nodiscard]] std::string describe_first_point(const std::vector<std::string>& parameter_names,
                                                const Eigen::Ref<const Eigen::MatrixXd>& points);
 

@@ -47,7 +47,8 @@ std::vector<double> ratios(const io::CsvTable& table, const char* column) {
 
 }  // namespace
 
-friction::Observations read_observations(const std::string& path) {
+friction::Observations read_observations(const std::string& path,
+                                         const std::function<void(const std::string&)>& warn) {
   const auto table = io::CsvTable::read(path);
   table.require_columns({"r_nominal", "r_measured", "driving_frequency_hz", "phase_deg"});
   friction::Observations o;
@@ -64,6 +65,9 @@ friction::Observations read_observations(const std::string& path) {
     if (!(o.phase_deg[row] >= -360.0 && o.phase_deg[row] <= 360.0)) {
       table.fail(row, "phase_deg", "an angle between -360 and 360 degrees");
     }
+  }
+  if (const auto doubt = friction::doubtful_unit_or_sign(o.phase_deg); !doubt.empty()) {
+    warn(fmt::format("{}: column 'phase_deg': {}", io::printable(path, 200), doubt));
   }
   return o;
 }

@@ -2,6 +2,7 @@
 /// The measurements and priors that the paper's problem is made of, read from files.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -25,8 +26,10 @@ struct ProblemFiles {
 };
 
 /// Measurements in the columns r_nominal, r_measured, driving_frequency_hz and phase_deg.
+/// \param warn  called with one line that names the file, if unit or sign of the phases is doubtful
 /// \throws io::InputError naming file, line, column and value.
-[[nodiscard]] friction::Observations read_observations(const std::string& path);
+[[nodiscard]] friction::Observations read_observations(const std::string& path,
+                                                       const std::function<void(const std::string&)>& warn);
 
 /// The prior of the four parameters of the paper from a file (problem/prior_file.hpp); none of them
 /// may be negative.

@@ -33,9 +33,9 @@ struct BridgeSums {
 /// of each stage are grouped by their ancestors in the earliest stage from which an effective
 /// number of fewest_groups is left, at the latest the preceding stage, and the covariances with the
 /// stages in between are added (Olsson and Douc 2019, with a lag that follows the genealogy). It is
-/// at least the standard error of independent samples, the sum of 1/S - 1/n_t - 1/n_{t+1} with S =
-/// n_t mean_t[s w / (s w + (1-s) r)] (Bennett 1976), which is large where the populations hardly
-/// overlap. The estimate and its error do not include regions that no chain has reached.
+/// at least the standard error of independent samples, the sum of 1/S - 1/n_t - 1/n_{t+1} with
+/// S = n_t mean_t[s w / (s w + (1-s) r)] (Bennett 1976), which is large where the populations
+/// hardly overlap. The estimate and its error do not include regions that no chain has reached.
 class BridgeEvidence {
  public:
   BridgeEvidence() = default;

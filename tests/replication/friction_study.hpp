@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "data/columns.hpp"
+#include "estimation/exact_posterior.hpp"
 #include "replication/study.hpp"
 
 namespace test_data {
@@ -18,6 +19,13 @@ inline tmcmc::BoxPrior table2(const replication::Reading& reading) {
 
 inline tmcmc::Problem paper_problem(const replication::Reading& reading) {
   return replication::problem(reading, table1(), table2(reading));
+}
+
+/// The exact posterior of Table 1 under Table 2, with exact physics.
+inline const estimation::ExactPosterior& paper_posterior() {
+  static const estimation::ExactPosterior posterior(
+      friction::Likelihood(table1(), {}), {{{0.01, 10.0}, {0.01, 10.0}, {0.001, 10.0}, {0.001, 1.0}}});
+  return posterior;
 }
 
 inline replication::Reading small_reading(replication::ReadingName name, tmcmc::Index samples) {

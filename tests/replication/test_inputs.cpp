@@ -33,17 +33,25 @@ std::string box(const std::string& force) {
 
 TEST_CASE_METHOD(CsvFixture, "measurements are read, and impossible ones refused with their place",
                  "[inputs]") {
-  const auto measured = read_observations(paper_files().observations);
+  std::vector<std::string> warnings;
+  const auto read = [&](const std::string& path) {
+    return read_observations(path, [&](const std::string& warning) { warnings.push_back(warning); });
+  };
+  const auto measured = read(paper_files().observations);
+  CHECK(warnings.empty());
   CHECK(measured.phase_deg == test_data::table1().phase_deg);
   CHECK(measured.measured_ratio == test_data::table1().measured_ratio);
+  std::ignore = read(put(header + "0.7,0.7,2,0.3\n0.8,0.8,2,0.4\n0.9,0.9,2,0.5\n"));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("x.csv: column 'phase_deg': no phase exceeds 2 pi"));
   const auto refused = [&](const std::string& row) {
-    return message([&] { std::ignore = read_observations(put(header + "0.7,0.7,2,30\n" + row)); });
+    return message([&] { std::ignore = read(put(header + "0.7,0.7,2,30\n" + row)); });
   };
   CHECK_THAT(refused("0.7,1,2,30\n"), Contains("x.csv:3: column 'r_measured': value '1'"));
   CHECK_THAT(refused("0.7,0.7,0,30\n"), Contains("x.csv:3: column 'driving_frequency_hz': value '0'"));
   CHECK_THAT(refused("0.7,0.7,2,361\n"), Contains("x.csv:3: column 'phase_deg': value '361'"));
   CHECK_THAT(refused("0,0.7,2,30\n"), Contains("x.csv:3: column 'r_nominal': value '0'"));
-  CHECK_THAT(message([&] { std::ignore = read_observations(put("r_nominal\n1\n")); }),
+  CHECK_THAT(message([&] { std::ignore = read(put("r_nominal\n1\n")); }),
              Contains("expected a column 'r_measured'"));
 }
 
@@ -81,7 +89,7 @@ TEST_CASE_METHOD(CsvFixture, "what needs uniform or independent parameters refus
 TEST_CASE_METHOD(CsvFixture, "uniform priors give the exact posterior as bounds and as densities",
                  "[inputs]") {
   auto files = paper_files();
-  const friction::Likelihood likelihood(read_observations(files.observations), {});
+  const friction::Likelihood likelihood(test_data::table1(), {});
   const auto prior = prior_for(files, reading(ReadingName::corrected));
   const auto by_bounds = exact_posterior_for(files, likelihood, prior);
   const estimation::ExactPosterior by_densities(likelihood, quadrature_priors(prior));
@@ -90,7 +98,7 @@ TEST_CASE_METHOD(CsvFixture, "uniform priors give the exact posterior as bounds 
 
 TEST_CASE_METHOD(CsvFixture, "a prior without continuous motion is refused at its place", "[inputs]") {
   auto files = paper_files();
-  const friction::Likelihood likelihood(read_observations(files.observations), {});
+  const friction::Likelihood likelihood(test_data::table1(), {});
   files.prior = put(box("9,10"));
   CHECK_THAT(message([&] { std::ignore = exact_posterior_for(files, likelihood, read_prior(files.prior)); }),
              Contains("x.csv:2: column 'lower': value '9'"));

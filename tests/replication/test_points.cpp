@@ -76,8 +76,7 @@ TEST_CASE_METHOD(CsvFixture, "the model at the points of a table is the model", 
 }
 
 TEST_CASE("exact runs are draws of the posterior, others in each run and study", "[points]") {
-  const estimation::ExactPosterior posterior(friction::Likelihood(test_data::table1(), {}),
-                                             {{{0.01, 10.0}, {0.01, 10.0}, {0.001, 10.0}, {0.001, 1.0}}});
+  const auto& posterior = test_data::paper_posterior();
   const auto runs = exact_runs(posterior, 1, 0, 2, 4000);
   const auto& force = posterior.marginal(friction::friction_force);
   REQUIRE(runs[0].size() == 2);
@@ -94,8 +93,7 @@ TEST_CASE("exact runs are draws of the posterior, others in each run and study",
 
 TEST_CASE("areas of exact runs are those of their distribution functions, with quantiles over studies",
           "[points]") {
-  const estimation::ExactPosterior posterior(friction::Likelihood(test_data::table1(), {}),
-                                             {{{0.01, 10.0}, {0.01, 10.0}, {0.001, 10.0}, {0.001, 1.0}}});
+  const auto& posterior = test_data::paper_posterior();
   const auto areas = exact_areas(posterior, 1, 0, 3, 50);
   const auto runs = exact_runs(posterior, 1, 0, 3, 50);
   for (std::size_t p = 0; p < areas.size(); ++p) {

@@ -14,6 +14,7 @@ using namespace replication;
 using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
+using test_data::paper_posterior;
 
 namespace {
 
@@ -33,13 +34,6 @@ std::string runs_file() {
     }
   }
   return text + '\n';
-}
-
-const estimation::ExactPosterior& paper_posterior() {
-  static const estimation::ExactPosterior posterior(
-      friction::Likelihood(test_data::table1(), {}),
-      {{{0.01, 10.0}, {0.01, 10.0}, {0.001, 10.0}, {0.001, 1.0}}});
-  return posterior;
 }
 
 }  // namespace
