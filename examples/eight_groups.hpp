@@ -22,9 +22,9 @@ constexpr std::size_t groups = 8;
 constexpr std::array<double, groups> measured = {28, 8, -3, 7, -1, 1, 18, 12};
 /// s_j.
 constexpr std::array<double, groups> errors = {15, 10, 16, 11, 9, 11, 10, 18};
-/// Of the prior of mu.
+/// Standard deviation of the prior of mu.
 constexpr double centre_sd = 20.0;
-/// Of the half-normal prior of tau.
+/// Scale of the half-normal prior of tau.
 constexpr double spread_sd = 10.0;
 
 /// log N(x; mean, sd^2).

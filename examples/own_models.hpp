@@ -17,7 +17,7 @@ namespace examples {
 
 /// Data about the measurements, for the NetCDF file.
 struct Measurements {
-  /// What was measured.
+  /// The measurements.
   std::vector<storage::Column> observed = {};
   /// Further data on each measurement.
   std::vector<storage::Column> constant = {};
@@ -41,7 +41,7 @@ struct ComparedOutputs {
 
 /// A log-likelihood, its prior, and the data belonging to both.
 struct Model {
-  /// Of the parameters, in the order of the columns of the points.
+  /// Prior of the parameters, in the order of the columns of the points.
   tmcmc::Prior prior;
   /// Log-likelihood of a batch of points.
   tmcmc::LogLikelihood log_likelihood;

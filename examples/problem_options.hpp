@@ -48,9 +48,9 @@ class ProblemOptions {
 
   /// CSV of the data.
   std::string observations;
-  /// Its column with which model outputs are compared.
+  /// Column of that file with which model outputs are compared.
   std::string observation;
-  /// Its column, or one number for all.
+  /// Column of the standard deviations, or one number for all.
   std::string standard_deviation;
   /// The parameter that multiplies the standard deviations; empty: none.
   std::string noise;
@@ -67,20 +67,20 @@ class ProblemOptions {
   long runs = 1;
   /// Seed of all runs.
   std::uint64_t seed = 1;
-  /// 0: as many as the machine has.
+  /// Number of threads; 0: as many as the machine has.
   int threads = 0;
 
   /// CSV of the samples.
   std::string output;
-  /// Samples, stages, observations.
+  /// NetCDF file of samples, stages and observations.
   std::string netcdf;
   /// Directory of figures and their tables.
   std::string figures;
-  /// Of the posterior, at which the model is evaluated for them; 0: none.
+  /// Draws of the posterior at which the model is evaluated for the figures; 0: none.
   long predictive_draws = 500;
   /// CSV of the table that is printed.
   std::string summary;
-  /// Kept stages.
+  /// File of the kept stages.
   std::string checkpoint;
 
   /// The problem file; nothing if none is given.

@@ -11,11 +11,11 @@ namespace command_line {
 
 /// Samples by parameter.
 struct CornerSamples {
-  /// Of the parameters.
+  /// Names of the parameters.
   std::vector<std::string> names;
   /// One a parameter, all of one length.
   std::vector<std::vector<double>> columns;
-  /// Of that length; empty for equal weights.
+  /// Weights of the samples; empty for equal weights.
   std::vector<double> weights;
 };
 
@@ -24,7 +24,7 @@ struct CornerTables {
   /// Of each pair: the middle of a cell, its density, and the probability of the cells at least as
   /// dense.
   OptionalCsv joint;
-  /// Of each parameter: bins with their density.
+  /// For each parameter: bins with their density.
   OptionalCsv marginals;
   /// A row per parameter: moments, quantiles, the range that is drawn and its tics.
   OptionalCsv summary;

@@ -11,7 +11,7 @@ namespace estimation {
 struct LegendreRule {
   /// Nodes; the interpolant has degree order - 1.
   static constexpr std::size_t order = 20;
-  /// Ascending.
+  /// Nodes, ascending.
   std::array<double, order> node;
   /// Weights, which sum to 2.
   std::array<double, order> weight;

@@ -11,9 +11,9 @@ namespace estimation {
 
 /// Bounds of one parameter, in its unit.
 struct Interval {
-  /// Less than upper.
+  /// Lower bound, finite and less than upper.
   double lower = 0.0;
-  /// Both bounds are finite.
+  /// Upper bound, finite.
   double upper = 0.0;
 
   /// upper - lower, in the unit of the parameter.

@@ -13,7 +13,7 @@ namespace estimation {
 
 /// A draw from the posterior, with the standard normal errors of one new measurement.
 struct PredictiveDraw {
-  /// In the order of friction::Parameter.
+  /// Parameters in the order of friction::Parameter.
   std::array<double, friction::parameter_count> point;
   /// Error of the phase angle over sigma_phase.
   double phase_score;

@@ -15,7 +15,7 @@ struct ChildEnd {
   /// It exited by itself, was ended by a signal, was killed at the time limit, or was never
   /// started.
   enum class Kind { exited, signalled, timed_out, not_started };
-  /// Which of these.
+  /// How the child ended.
   Kind kind;
   /// Exit status, number of the signal, or errno.
   int value;

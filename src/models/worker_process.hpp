@@ -25,9 +25,9 @@ struct WorkerEnded {
 struct Pipe {
   /// \throws std::system_error if there are no more descriptors.
   Pipe();
-  /// What comes out of it.
+  /// The end to read from.
   io::Descriptor reading;
-  /// What goes into it.
+  /// The end to write to.
   io::Descriptor writing;
 };
 

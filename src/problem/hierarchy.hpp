@@ -17,13 +17,13 @@ using Argument = std::variant<double, std::size_t>;
 
 /// A parameter and its distribution given the parameters that precede it.
 struct ConditionalParameter {
-  /// As in tmcmc::Parameter.
+  /// Name, as in tmcmc::Parameter.
   std::string name;
-  /// As in tmcmc::Parameter.
+  /// Unit, as in tmcmc::Parameter.
   std::string unit;
   /// A row of tmcmc::distributions().
   tmcmc::Distribution distribution;
-  /// In the order that the distribution takes.
+  /// Arguments in the order in which the distribution takes them.
   std::vector<Argument> arguments;
 
   /// Whether an argument is another parameter.

@@ -37,9 +37,9 @@ struct Node {
 
 /// A key of a table.
 struct Entry {
-  /// Its name.
+  /// Name of the entry.
   std::string key;
-  /// Its value.
+  /// Value of the entry.
   Node node;
 };
 
@@ -47,7 +47,7 @@ struct Entry {
 struct File {
   /// Path as given.
   std::string path;
-  /// Its tables and values.
+  /// Tables and values of the file.
   Node root;
 
   /// \throws io::InputError always, with the text "path:line: key: value '...': expected ...".

@@ -55,9 +55,9 @@ struct Accuracy {
 
 /// One sampler of the comparison: which setting differs from the published one, and its value.
 struct Configuration {
-  /// What is varied.
+  /// Name of the group: what is varied.
   std::string family;
-  /// Its value.
+  /// Value of what is varied.
   std::string value;
   /// Complete options of the sampler.
   tmcmc::Options options;

@@ -62,11 +62,11 @@ struct ParameterAudit {
   double chi_squared = 0.0;
   /// n - 1 degrees of freedom; NaN for n = 1.
   double chi_squared_p = 0.0;
-  /// By the likelihood ratio with sigma as stated.
+  /// 95 % interval by the likelihood ratio with sigma as stated.
   ConfidenceInterval noise_known_95;
-  /// By the F test; NaN unless the residuals determine sigma.
+  /// 95 % interval by the F test; NaN unless the residuals determine sigma.
   ConfidenceInterval noise_unknown_95;
-  /// In the order stated in Audit.
+  /// Tests of single values, in the order stated in Audit.
   std::vector<PointTest> tests;
 };
 
@@ -104,15 +104,15 @@ struct AuditLine {
   std::string parameter;
   /// "least squares", "stated truth" or "alternative".
   std::string hypothesis;
-  /// As in ParameterAudit.
+  /// Noise level as stated, as in ParameterAudit.
   double noise_stated;
-  /// As in ParameterAudit.
+  /// Noise level from the residuals, as in ParameterAudit.
   double noise_unbiased;
   /// For least squares without probabilities of the likelihood ratio and F.
   PointTest test;
-  /// Around the least-squares estimate; NaN in the other lines.
+  /// Interval around the least-squares estimate; NaN in the other lines.
   ConfidenceInterval noise_known_95;
-  /// Around the least-squares estimate; NaN in the other lines.
+  /// Interval around the least-squares estimate; NaN in the other lines.
   ConfidenceInterval noise_unknown_95;
 };
 

@@ -13,7 +13,7 @@ namespace replication {
 
 /// A problem with the known properties of its posterior.
 struct BenchmarkProblem {
-  /// As in the tables of benchmark_problems.
+  /// Name of the problem in the tables of benchmark_problems.
   std::string name;
   /// Likelihood and prior box.
   tmcmc::Problem problem;

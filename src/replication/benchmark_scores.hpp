@@ -39,11 +39,11 @@ struct BenchmarkRun {
 /// Errors of the runs. Runs that have not reached the posterior count only in `unfinished` and
 /// `warned`.
 struct BenchmarkScore {
-  /// Of the log-evidence.
+  /// Root-mean-square error of the log-evidence.
   double rms_error = 0.0;
   /// Mean error of the log-evidence.
   double bias = 0.0;
-  /// Of error / stated standard error.
+  /// Root mean square of error / stated standard error.
   double rms_z = 0.0;
   /// Largest |error| / stated standard error.
   double worst_z = 0.0;

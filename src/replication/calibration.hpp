@@ -21,9 +21,9 @@ struct CalibrationOptions {
   tmcmc::Index draws = 99;
   /// Bins of the rank histogram; must divide draws + 1.
   tmcmc::Index bins = 20;
-  /// Of the simulated pairs and of the runs.
+  /// Seed of the simulated pairs and of the runs.
   std::uint64_t seed = 1;
-  /// Over the replications.
+  /// Number of threads over the replications.
   int threads = 1;
 
   /// \throws errors::InvalidValue naming field, value and constraint.
@@ -45,7 +45,7 @@ struct CalibrationResult {
 /// Pairs without continuous motion or with a nominal ratio that is not positive are drawn again;
 /// since the latter condition depends on the data alone, the ranks stay uniform.
 struct SimulatedPair {
-  /// In the order of friction::Parameter.
+  /// The true parameters, in the order of friction::Parameter.
   Eigen::VectorXd parameters;
   /// Drawn from the model at these parameters.
   friction::Observations observations;
@@ -67,7 +67,7 @@ struct SimulatedPair {
 struct RankHistogram {
   /// One entry per bin.
   std::vector<tmcmc::Index> counts;
-  /// With bins - 1 degrees of freedom.
+  /// Chi-squared statistic of the counts, with bins - 1 degrees of freedom.
   double chi_squared = 0.0;
   /// Fraction of the truths inside the central 50 % of the draws.
   double coverage_50 = 0.0;

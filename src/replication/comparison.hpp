@@ -20,11 +20,11 @@ struct ComparedCell {
 
   /// Table that the cell is in.
   std::string table;
-  /// Its row.
+  /// Row of the cell.
   std::string row;
-  /// Its column.
+  /// Column of the cell.
   std::string column;
-  /// As printed.
+  /// The number as printed.
   double printed = unknown;
   /// The same number from one study of ours.
   double ours = unknown;
@@ -36,7 +36,7 @@ struct ComparedCell {
   double printed_percentile = unknown;
   /// Percentile of our number among the studies.
   double our_percentile = unknown;
-  /// Not adjusted for multiple tests.
+  /// p-value of the printed number, not adjusted for multiple tests.
   PValue p = {unknown, unknown};
   /// name_of(Compatibility).
   std::string verdict = {};

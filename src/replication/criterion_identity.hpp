@@ -13,7 +13,7 @@ namespace replication {
 
 /// A stage of TMCMC, with the result of each rule for its population; N is the number of samples.
 struct StageUnderBothRules {
-  /// Before the step.
+  /// Tempering parameter before the step.
   double beta = 0.0;
   /// Step chosen by CoV, and taken by the run.
   double step_cov = 0.0;
@@ -21,15 +21,15 @@ struct StageUnderBothRules {
   double step_ess = 0.0;
   /// Step chosen by CoV with the N - 1 standard deviation.
   double step_cov_sample = 0.0;
-  /// After step_cov.
+  /// N_eff after step_cov.
   double effective_sample_size = 0.0;
-  /// After step_cov, population.
+  /// CoV after step_cov, with the population's standard deviation.
   double coefficient_of_variation = 0.0;
   /// N / (1 + CoV^2).
   double samples_over_one_plus_cov_squared = 0.0;
-  /// After step_cov_sample.
+  /// N_eff after step_cov_sample.
   double effective_sample_size_sample = 0.0;
-  /// After the stage.
+  /// Tempering parameter of the run of TMCMC after the stage.
   double beta_tmcmc = 0.0;
   /// TMCMC-II after as many stages; NaN if it has ended earlier.
   double beta_tmcmc_ii = 0.0;
@@ -37,7 +37,7 @@ struct StageUnderBothRules {
 
 /// A run of each sampler on the same random stream.
 struct RunUnderBothRules {
-  /// Of TMCMC.
+  /// Stages of the run of TMCMC.
   std::vector<StageUnderBothRules> stages;
   /// Largest relative difference of beta; 1 if TMCMC-II has fewer stages.
   double path_difference = 0.0;
@@ -57,13 +57,13 @@ struct RunUnderBothRules {
 
 /// Largest relative differences over all stages of the runs.
 struct RuleDifferences {
-  /// Between step_ess and step_cov.
+  /// Largest difference between step_ess and step_cov.
   double of_steps = 0.0;
-  /// Between N / (1 + CoV^2) and N_eff.
+  /// Largest difference between N / (1 + CoV^2) and N_eff.
   double of_identity = 0.0;
-  /// Between step_cov_sample and step_cov.
+  /// Largest difference between step_cov_sample and step_cov.
   double of_sample_deviation = 0.0;
-  /// Between the paths of beta in whole runs.
+  /// Largest difference between the paths of beta in whole runs.
   double of_paths = 0.0;
   /// Number of stages of all runs.
   std::size_t stages = 0;

@@ -20,7 +20,7 @@ struct Setting {
   std::string name;
   /// Reading of all runs, or of the first half.
   Reading reading;
-  /// Of the second half, if stitched from files of two settings.
+  /// Reading of the second half, if the runs are stitched from files of two settings.
   std::optional<Reading> second;
 };
 
@@ -53,7 +53,7 @@ struct SettingFit {
   std::string name;
   /// Added to each number of iterations; 1 if beta_0 was counted too.
   int shift = 0;
-  /// Of the printed columns, in their order.
+  /// Fits of the printed columns, in their order.
   std::vector<ColumnFit> columns;
 };
 
@@ -75,11 +75,11 @@ struct PairFit {
 struct Forensics {
   /// Shifts 0, 1 and -1 of each setting.
   std::vector<SettingFit> settings;
-  /// Of settings without shift, row by row.
+  /// Pairs of settings without shift, row by row.
   std::vector<PairFit> pairs;
   /// Log-density of the best pair over that of the first setting for both columns.
   double gain = 0.0;
-  /// That were looked at: gain is worth less than its logarithm.
+  /// Number of pairs that were looked at: the gain is worth less than its logarithm.
   double number_of_pairs = 0.0;
   /// Probability that two columns made by the first setting alone have a best pair with at least
   /// this gain: the p-value of the search, corrected for the number of looks. Against the pairs of
@@ -89,7 +89,7 @@ struct Forensics {
 
 /// A number of the search or the name of a setting, as a row of a table.
 struct SearchStatistic {
-  /// What the value is.
+  /// Name of the value.
   std::string quantity;
   /// Number or name.
   std::string value;

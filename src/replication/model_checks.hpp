@@ -28,7 +28,7 @@ struct PhasePoint {
   double exact_deg = 0.0;
   /// Bin of the published transform.
   double published_deg = 0.0;
-  /// Integration in time.
+  /// Phase by integration in time.
   double integrated_deg = 0.0;
   /// Stops per period of the integrated motion.
   int stops_per_period = 0;
@@ -91,13 +91,13 @@ struct DiscretisationError {
 struct CurvePoint {
   /// Driving over natural frequency.
   double frequency_ratio;
-  /// With the friction force.
+  /// Phase with the friction force.
   double phase_deg;
   /// On Den Hartog's boundary, where the force ratio is at its limit.
   double boundary_phase_deg;
   /// Limit of continuous motion (Eq. 18).
   double limit_force_ratio;
-  /// With the fitted friction force.
+  /// Phase with the fitted friction force.
   double phase_fitted_deg;
 };
 

@@ -12,9 +12,9 @@ namespace replication {
 /// Phase angle (Eq. 21), NaN where the motion is not continuous, and limit of continuous motion
 /// (Eq. 18), one row per point.
 struct Phases {
-  /// In degrees.
+  /// Phase angles in degrees.
   std::vector<double> phase_deg;
-  /// As a multiple of the driving force.
+  /// Limits of continuous motion as multiples of the driving force.
   std::vector<double> limit_force_ratio;
 };
 

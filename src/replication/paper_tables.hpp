@@ -56,7 +56,7 @@ struct BarPair {
   std::string source;
   /// Column of the parameter, or number of iterations.
   std::string category;
-  /// Of the first and the second sampler.
+  /// Heights for the first and the second sampler.
   std::array<double, 2> heights;
 };
 

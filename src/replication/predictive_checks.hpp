@@ -36,9 +36,9 @@ struct PredictiveDrawing {
 
 /// An end of a marginal at which it is cut off.
 struct CutOff {
-  /// Whose marginal it is.
+  /// Parameter whose marginal is cut off.
   friction::Parameter parameter;
-  /// In the unit of the parameter.
+  /// Bound in the unit of the parameter.
   double bound;
 };
 /// The ends at which the prior or the limit of continuous motion cuts the posterior off: the

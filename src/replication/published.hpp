@@ -24,17 +24,17 @@ using statistics::total_of;
 
 /// A printed area of Table 3.
 struct PrintedArea {
-  /// Whose column.
+  /// Sampler whose area it is.
   std::string sampler;
   /// Index into StudySummary::areas.
   std::size_t parameter;
-  /// As printed; its digits give the rounding.
+  /// The area as printed; its digits give the rounding.
   std::string printed;
 };
 
 /// A printed column of Table 4.
 struct PrintedCounts {
-  /// Whose column.
+  /// Sampler whose column it is.
   std::string sampler;
   /// Number of runs by number of iterations.
   Counts counts;
@@ -58,7 +58,7 @@ constexpr double iteration_margin = 0.005;
 /// A printed number in its null distribution. No p-value is adjusted: an adjustment would make
 /// compatibility easier.
 struct CellVerdict {
-  /// As printed.
+  /// Name of the sampler as printed.
   std::string sampler;
   /// Index into StudySummary::areas.
   std::size_t parameter = 0;
@@ -68,7 +68,7 @@ struct CellVerdict {
   double median = 0.0;
   /// Central 95 % of the null studies.
   Interval95 interval{};
-  /// Of the printed area among the null studies.
+  /// Percentile of the printed area among the null studies.
   double percentile = 0.0;
   /// Two-sided.
   PValue p;
@@ -102,7 +102,7 @@ struct ContrastVerdict {
 
 /// The numbers that the paper prints for one sampler: a column of Tables 3 and 4.
 struct PrintedColumn {
-  /// Whose column.
+  /// Sampler whose column it is.
   std::string sampler;
   /// Areas of friction force (N) and natural frequency (Hz), in this order.
   std::vector<double> areas;
@@ -120,7 +120,7 @@ struct PrintedColumn {
 struct JointTests {
   /// All printed areas.
   PValue areas;
-  /// Both columns of Table 4.
+  /// p-value of both columns of Table 4.
   PValue counts;
   /// Areas and counts of each sampler.
   std::vector<PValue> columns;

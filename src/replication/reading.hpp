@@ -58,7 +58,7 @@ constexpr std::array<std::string_view, 3> enumerator_names(std::type_identity<Re
 
 /// One of the samplers that a study compares: a name and complete options.
 struct Arm {
-  /// As in tables and files.
+  /// Name of the sampler in tables and files.
   std::string name;
   /// Complete, criterion included.
   tmcmc::Options options;

@@ -44,7 +44,7 @@ struct AreaEffect {
 
 /// The numbers of one sampler under a reading.
 struct ReadingEffect {
-  /// Whose studies.
+  /// Sampler of the studies.
   std::string sampler;
   /// F_mu, N.
   AreaEffect force;
@@ -64,7 +64,7 @@ struct ReadingEffect {
   double mean_frequency_hz = 0.0;
   /// Mean over the runs.
   double mean_log_evidence = 0.0;
-  /// Of all printed tables, by log_likelihood_of_tables.
+  /// Log-likelihood of all printed tables (log_likelihood_of_tables).
   double log_likelihood = 0.0;
 };
 

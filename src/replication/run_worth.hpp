@@ -37,7 +37,7 @@ struct Estimate {
 
 /// Spearman's rank correlation; ties get their mean rank. NaN where all x or all y are equal.
 struct RankCorrelation {
-  /// In [-1, 1].
+  /// Rank correlation, in [-1, 1].
   double rho = 0.0;
   /// Two-sided, Student's t of rho sqrt((n - 2)/(1 - rho^2)) with n - 2 degrees of freedom.
   double p = 1.0;

@@ -32,11 +32,11 @@ struct StudyOptions {
 
 /// One run: final samples, records of the stages, and moments.
 struct Run {
-  /// As the sampler returned it; samples may be weighted.
+  /// The result as the sampler returned it; samples may be weighted.
   tmcmc::Result result;
-  /// Of the final samples, one entry per parameter.
+  /// Means of the final samples, one entry per parameter.
   Eigen::VectorXd mean;
-  /// Of the final samples (N - 1).
+  /// Standard deviations of the final samples (N - 1), one entry per parameter.
   Eigen::VectorXd standard_deviation;
 
   /// Number of stages, which Table 4 counts.

@@ -50,7 +50,7 @@ enum class Verdict {
   off_by_one,
   /// The paper's own numbers contradict the claim.
   internally_contradictory,
-  /// Not testable with public material.
+  /// The claim cannot be tested with public material.
   cannot_be_tested
 };
 

@@ -10,9 +10,9 @@ namespace statistics {
 
 /// Ends of a panel, in the unit of the parameter.
 struct Range {
-  /// Less than high.
+  /// Lower end, finite and less than high.
   double low;
-  /// Both ends are finite.
+  /// Upper end, finite.
   double high;
 };
 
@@ -43,7 +43,7 @@ struct Range {
 
 /// A pair of parameters on a grid of bins times bins cells, x running faster.
 struct PairDensity {
-  /// Per unit of x times unit of y.
+  /// Densities, per unit of x times unit of y.
   std::vector<double> density;
   /// Probability of all cells at least as dense as this one, this one included: the cells with a
   /// level up to p form the smallest region with probability p. The level of empty cells is 1.

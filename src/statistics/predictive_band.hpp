@@ -17,7 +17,7 @@ struct PredictiveBand {
   Interval95 model{};
   /// Central 95 % of a new y: including the noise.
   Interval95 measurement{};
-  /// Of a new y: sqrt(var m + mean sigma^2), var m with 1/N.
+  /// Standard deviation of a new y: sqrt(var m + mean sigma^2), where var m is taken with 1/N.
   double standard_deviation = 0.0;
   /// P(new y < observed), from 0 to 1.
   double probability_below = 0.0;

@@ -16,7 +16,7 @@ namespace storage {
 struct StoredEvidence {
   /// Path of the file.
   std::string path;
-  /// Attributes log_evidence and log_evidence_standard_error.
+  /// The attributes log_evidence and log_evidence_standard_error.
   tmcmc::Evidence evidence;
   /// Attribute data_checksum; empty if the file does not record the data.
   std::string data_checksum;
@@ -37,7 +37,7 @@ void require_same_data(std::span<const StoredEvidence> runs);
 struct ComparedModel {
   /// log P(D | M), natural logarithm.
   double log_evidence;
-  /// Its standard error.
+  /// Standard error of log_evidence.
   double log_evidence_error;
   /// log P(D | M) - log P(D | best), 0 for the one with the largest evidence.
   double log_bayes_factor;
